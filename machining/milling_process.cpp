@@ -20,10 +20,12 @@ ToolMotion motion_of(const MillingCut& cut, const ProcessSettings& settings) {
   if (!settings.passes.empty())
     return {settings.spindle, feed_speed,     settings.steps,    settings.passes,
             settings.dwell,   settings.drive, cut.cutter.teeth()};
-  const bool outside = settings.start == ProcessSettings::Start::outside;
-  return {settings.spindle, feed_speed,
-          settings.steps,   outside ? -cut.cutter.radius() - beyond(cut.cutter) : 0.0,
-          settings.length,  settings.dwell};
+  const double start =
+      settings.start == ProcessSettings::Start::outside ? -cut.cutter.radius() - beyond(cut.cutter) : 0.0;
+  if (settings.drive)
+    return {settings.spindle, feed_speed,     settings.steps,  start,
+            settings.length,  settings.dwell, *settings.drive, cut.cutter.teeth()};
+  return {settings.spindle, feed_speed, settings.steps, start, settings.length, settings.dwell};
 }
 
 } // namespace

@@ -27,7 +27,7 @@ struct ProcessSettings {
   /// In place of length: passes through a blank, which begin in a hole or beside matter.
   std::vector<ToolPath> passes{};
   std::optional<Blank> blank{};
-  std::optional<DriveTables> drive{}; ///< of passes
+  std::optional<DriveTables> drive{};
 };
 
 struct ProcessStep : EdgeLoad {

@@ -33,10 +33,20 @@ ToolMotion::ToolMotion(double speed, double feed_speed, int steps, std::vector<T
     : steps_(steps), dt_(full_turn / speed / steps), feed_of_turn_(feed_speed * full_turn / speed),
       path_(std::move(passes)) {
   assert(!path_.empty());
-  plan(dwell, drive, teeth);
+  std::vector<double> lengths;
+  for (const ToolPath& path : path_) lengths.push_back(path.length());
+  plan(lengths, dwell, drive, teeth);
 }
 
-void ToolMotion::plan(double dwell, const std::optional<DriveTables>& drive, std::size_t teeth) {
+ToolMotion::ToolMotion(double speed, double feed_speed, int steps, double start, double length, double dwell,
+                       const DriveTables& drive, std::size_t teeth)
+    : ToolMotion(speed, feed_speed, steps, start, length, dwell) {
+  passes_.clear();
+  plan({length}, dwell, drive, teeth);
+}
+
+void ToolMotion::plan(const std::vector<double>& lengths, double dwell,
+                      const std::optional<DriveTables>& drive, std::size_t teeth) {
   // Time and way at the begins of steps, as far as they are needed.
   const double angle = full_turn / steps_, feed_of_step = feed_of_turn_ / steps_;
   double time = 0.0, way = 0.0;
@@ -70,11 +80,11 @@ void ToolMotion::plan(double dwell, const std::optional<DriveTables>& drive, std
     way_.push_back(way);
   };
   std::int64_t step = 0;
-  for (const ToolPath& path : path_) {
+  for (const double length : lengths) {
     Pass pass{.begin = step, .end = step};
     const double begin = way;
     constexpr double whole = 1.0 - 1e-12;
-    while (way - begin < whole * path.length()) {
+    while (way - begin < whole * length) {
       next(true);
       ++step;
     }

@@ -41,7 +41,10 @@ public:
   /// Straight along +x from `start` at a constant speed, rad/s, and feed, m/s. dwell: turns at the end
   /// without feed.
   ToolMotion(double speed, double feed_speed, int steps, double start, double length, double dwell);
-  /// Passes one after the other. teeth: of the cutter. constant speed and feed where `drive` says no other.
+  /// The same where speed and feed change; `speed` and `feed_speed` are the largest. teeth: of the cutter.
+  ToolMotion(double speed, double feed_speed, int steps, double start, double length, double dwell,
+             const DriveTables& drive, std::size_t teeth);
+  /// Passes one after the other, with constant speed and feed where `drive` says no other.
   ToolMotion(double speed, double feed_speed, int steps, std::vector<ToolPath> passes, double dwell,
              const std::optional<DriveTables>& drive, std::size_t teeth);
 
@@ -73,7 +76,8 @@ public:
 
 private:
   double way(double at) const; ///< m since the begin of the run, at a time in steps
-  void plan(double dwell, const std::optional<DriveTables>& drive, std::size_t teeth);
+  void plan(const std::vector<double>& lengths, double dwell, const std::optional<DriveTables>& drive,
+            std::size_t teeth);
 
   int steps_;
   double dt_, feed_of_turn_, start_ = 0.0, length_ = 0.0, fed_ = 0.0, duration_ = 0.0;

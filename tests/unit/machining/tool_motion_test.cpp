@@ -47,6 +47,43 @@ TEST(ToolMotion, TimeIsThatOfARampOfTheSpeed) {
   EXPECT_FALSE(motion.at_end(480 + 2 * steps - 1)) << "and two turns without feed";
   EXPECT_TRUE(motion.at_end(480 + 2 * steps));
   EXPECT_FALSE(motion.steady());
+  const ToolMotion straight(fast, 1e-4 * 3 * fast / full_turn, steps, -1e-3, 2e-3, 2.0, drive, 3);
+  EXPECT_EQ(straight.time(400), motion.time(400));
+  EXPECT_EQ(straight.fed(), motion.fed());
+  EXPECT_NEAR(straight.axis(0, 480.0).x(), 1e-3, 1e-16);
+}
+
+TEST(ToolMotion, ForcesFollowTheFeedAndVibrationsTheSpeed) {
+  // A feed that doubles half-way, and a mode that the teeth meet at the second of two speeds.
+  MillingCut cut = milling_cut(2, 767e6, 0.0, down, 0.25);
+  cut.feed = 2e-4;
+  Mode mode{.of = Mode::Of::tool,
+            .frequency = 2.0 * 900.0 / full_turn,
+            .damping = 0.05,
+            .stiffness = 5e7,
+            .direction = Vec3::UnitY()};
+  const double turn = full_turn / 900.0;
+  MillingProcess process(cut, {mode},
+                         {.spindle = 900.0,
+                          .axial_depth = 1e-3,
+                          .length = 12e-3,
+                          .pitch = 1e-4,
+                          .layers = 1,
+                          .steps = 180,
+                          .drive = DriveTables{TimeTable({0.0, 40 * turn, 41 * turn}, {500.0, 500.0, 900.0}),
+                                               TimeTable({0.0, 20 * turn, 21 * turn}, {1e-4, 1e-4, 2e-4})}});
+  double thin = 0.0, thick = 0.0, slow = 0.0, fast = 0.0;
+  while (!process.at_end()) {
+    const ProcessStep step = process.advance();
+    const double t = step.time / turn;
+    if (t > 10.0 && t < 20.0) thin = std::max(thin, step.removed);
+    if (t > 25.0 && t < 40.0)
+      thick = std::max(thick, step.removed), slow = std::max(slow, step.displacement.norm());
+    if (t > 50.0) fast = std::max(fast, step.displacement.norm());
+  }
+  EXPECT_NEAR(thick / thin, 2.0, 0.03);
+  EXPECT_GT(fast, 2.0 * slow) << "resonance";
+  EXPECT_LT(process.ledger().share(), 1e-3);
 }
 
 /// m³ that stay on 20 mm of a surface of 1 mm: f²/8R high, a third of that in the mean.
