@@ -20,6 +20,7 @@ struct StabilityRange {
   int speeds = 200;
   std::optional<double> depth_to; ///< m; none: as deep as is of interest
   int depths = 100;
+  std::vector<double> places; ///< m along the path, of a chart over them; none: there is none
 };
 
 /// How a cut in the time domain is resolved.

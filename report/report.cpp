@@ -118,6 +118,7 @@ ReportData collect_report(const fs::path& folder, const results::RunStatus& stat
                              .units = report.units});
   if (auto lobes = stability_lobes(folder, status)) {
     report.charts.push_back(std::move(*lobes));
+    if (auto along = stability_along(folder, status)) report.charts.push_back(std::move(*along));
     report.charts_title = "Stability";
     report.figures = stability_figures(status, report.units);
   }

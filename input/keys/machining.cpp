@@ -226,12 +226,18 @@ void add_modes(Keys& k) {
 
 void add_shapes(Keys& k) {
   k.add("modes.*.along", quantities,
-        "In the time domain: places of the cutter's axis along x, increasing, for `shape_along`.")
+        "In the time domain, and for `stability.places`: places of the cutter's axis along x, increasing, "
+        "for `shape_along`.")
       .unit(d::length)
       .example("\"0 50 100 mm\"");
   k.add("modes.*.shape_along", quantities,
         "How the mode changes along the path, as shares of where `stiffness` is taken.")
       .example("\"1 0.8 1\"");
+  k.add("modes.*.frequency_along", quantities,
+        "In charts of `stability.places`: how the frequency changes with `along`, as shares of `frequency`; "
+        "the "
+        "modal mass stays. A wall that gets thinner.")
+      .example("\"1 0.9 0.8\"");
   k.add("modes.*.height", quantities,
         "In the time domain: heights over the tip of the cutter, increasing, for `shape_over_height`.")
       .unit(d::length)
@@ -262,6 +268,14 @@ void add_stability(Keys& k) {
       .in(positive)
       .example("\"5 mm\"")
       .computed("six times the smallest limit of zero order, and beyond `milling.axial_depth`");
+  k.add("stability.places", quantities,
+        "Places of the cutter's axis along x, increasing, at which limits over the speed are charted, of "
+        "modes that change "
+        "along the path (`along`, `shape_along`, `frequency_along`), at up to 25 depths. The lobes are those "
+        "of the "
+        "weakest place at `milling.speed` then.")
+      .unit(d::length)
+      .example("\"0 25 50 75 100 mm\"");
   k.add("stability.depths", integer, "").in({.low = 2, .high = 2000}).fallback("100");
 }
 
