@@ -255,8 +255,8 @@ ProcessStep MillingProcess::advance() {
   // Where an edge only just touches its force comes and goes from one question to the next: what that moves
   // is told from a failure by its size.
   constexpr int enough = 5, most = 30;
-  constexpr double close = 1e-12; // m
-  const double touch = 1e-6 * cut_.feed;
+  constexpr double close = 1e-12;                                 // m
+  const double touch = 1e-6 * cut_.feed, rubs = 1e-4 * cut_.feed; // spring passes do little else
   for (int iteration = 0; !modes_.empty(); ++iteration) {
     bear(shift, force_, [&](std::size_t k, const Sweep& sweep) { return layer_[k].ask(sweep); });
     PerLayer next = shift_of(moved(force_));
@@ -264,6 +264,7 @@ ProcessStep MillingProcess::advance() {
     for (std::size_t k = 0; k < layer_.size(); ++k) change = std::max(change, (next[k] - shift[k]).norm());
     shift = std::move(next);
     if (change < close || (iteration >= enough && change < touch)) break;
+    if (iteration >= most && change < rubs) break;
     if (iteration >= most)
       throw DivergenceError(
           fmt::format(

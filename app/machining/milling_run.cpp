@@ -79,7 +79,11 @@ std::string spectra_file(const machining::CutVibration& vibration, const input::
   };
   for (std::size_t k = 0; k < spectra[0].amplitude.size() && spectra[0].frequency(k) <= last; ++k) {
     const double frequency = spectra[0].frequency(k);
-    text += fmt::format("{:.9g},{}", frequency, on(frequency, teeth) ? 2 : on(frequency, turning) ? 1 : 0);
+    text += fmt::format("{:.9g},{}", frequency,
+                        k == 0                   ? 0
+                        : on(frequency, teeth)   ? 2
+                        : on(frequency, turning) ? 1
+                                                 : 0);
     for (const machining::Spectrum& spectrum : spectra) text += fmt::format(",{:.6g}", spectrum.amplitude[k]);
     text += '\n';
   }
