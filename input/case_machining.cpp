@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <functional>
 #include <numeric>
 #include <tuple>
 
@@ -109,6 +110,17 @@ void read_shape(NamedMode& mode, const Setting& table, Diagnostics& diagnostics)
       diagnostics.add(Mistake::conflict, table.where, table.path, error.what());
     }
   }
+  read_list({.name = "frequency_along"}, table, mode.frequency_along, diagnostics);
+  if (mode.frequency_along.size == 0) return;
+  try {
+    check_points("along", mode.along, "frequency_along", mode.frequency_along);
+  } catch (const InputError& error) {
+    diagnostics.add(Mistake::conflict, table.where, table.path, error.what());
+  }
+  if (const NumberList& shares = mode.frequency_along;
+      std::any_of(shares.value, shares.value + shares.size, [](double f) { return !(f > 0.0); }))
+    diagnostics.add(Mistake::range, table.where, table.path + ".frequency_along",
+                    "found a share that is not positive, expected shares of the frequency > 0");
 }
 
 NamedMode read_mode(const Setting& table, Diagnostics& diagnostics) {
@@ -157,11 +169,19 @@ void check_time_domain(const Setting& root, const MachiningCase& read, Analysis:
     diagnostics.add(Mistake::conflict, end.where, end.path,
                     "found a rounded end, expected a flat one: lobes are those of edges at one radius, whose "
                     "chips do not change with a motion along z; analysis.type = \"milling\" takes any");
-  for (const NamedMode& mode : read.modes)
-    if (type == Analysis::Type::stability && (mode.along.size > 0 || mode.height.size > 0))
-      diagnostics.add(Mistake::conflict, root.where, "modes." + mode.name,
-                      "found a mode that changes along the path or over the height, expected the stiffness "
-                      "at one place: lobes are those of a place; analysis.type = \"milling\" takes shapes");
+  const Setting* places = root.find("stability.places");
+  for (const NamedMode& mode : read.modes) {
+    if (type == Analysis::Type::stability && (mode.height.size > 0 || (mode.along.size > 0 && !places)))
+      diagnostics.add(
+          Mistake::conflict, root.where, "modes." + mode.name,
+          "found a mode that changes along the path or over the height, expected the stiffness "
+          "at one place, or stability.places for what changes along the path: lobes are those of a "
+          "place; analysis.type = \"milling\" takes shapes");
+    if (type == Analysis::Type::milling && mode.frequency_along.size > 0)
+      diagnostics.add(Mistake::conflict, root.where, "modes." + mode.name + ".frequency_along",
+                      "found a frequency that changes along the path, expected it with analysis.type = "
+                      "\"stability\" alone: modes of a run in time are those of one structure");
+  }
   const double closest = *std::min_element(cutter.pitch.begin(), cutter.pitch.end());
   if (const Setting& steps = *root.find("dexels.steps");
       read.dexels.steps * closest < 2.0 * machining::full_turn)
@@ -186,8 +206,7 @@ void read_machining(Setting& root, Case& result, Diagnostics& diagnostics) {
   const double diameter = read.cut.cutter.diameter;
   root.set_default("milling.radial_depth", diameter);
   const Setting& milling = *root.find("milling");
-  read.speed = milling.get<double>("speed");
-  read.cut.feed = milling.get<double>("feed");
+  read_drive(milling, read, result.analysis.type, diagnostics);
   read.axial_depth = milling.get<double>("axial_depth");
   read.cut.engagement = {milling.choice<machining::Engagement::Side>("side"),
                          milling.get<double>("radial_depth")};
@@ -225,6 +244,14 @@ void read_machining(Setting& root, Case& result, Diagnostics& diagnostics) {
   read.start = root.choice<machining::ProcessSettings::Start>("milling.start");
   read.dexels = {root.get<double>("dexels.pitch"), static_cast<int>(root.get<std::int64_t>("dexels.layers")),
                  static_cast<int>(root.get<std::int64_t>("dexels.steps"))};
+  read_path(root, read, result.path, diagnostics);
+  if (result.structure->part && result.structure->part->mapped && (!read.passes.empty() || read.drive)) {
+    const Setting& mapping = *root.find("part.mapping");
+    diagnostics.add(Mistake::conflict, mapping.where, mapping.path,
+                    fmt::format("found hexahedra that follow the part, expected them without {}: they lie over a "
+                                "cut straight along x, and its motion is solved in equal steps of time",
+                                read.passes.empty() ? "speeds or feeds over time" : "milling.passes"));
+  }
   constexpr double most_lines = 2e5;
   if (const Setting& pitch = *root.find("dexels.pitch");
       (read.length + 3.0 * diameter) / read.dexels.pitch > most_lines)
@@ -235,9 +262,16 @@ void read_machining(Setting& root, Case& result, Diagnostics& diagnostics) {
   root.set_default("stability.speed_from", 0.5 * read.speed);
   root.set_default("stability.speed_to", 1.5 * read.speed);
   const Setting& range = *root.find("stability");
-  read.stability = {range.get<double>("speed_from"), range.get<double>("speed_to"),
-                    static_cast<int>(range.get<std::int64_t>("speeds")), range.maybe<double>("depth_to"),
-                    static_cast<int>(range.get<std::int64_t>("depths"))};
+  read.stability = {range.get<double>("speed_from"),
+                    range.get<double>("speed_to"),
+                    static_cast<int>(range.get<std::int64_t>("speeds")),
+                    range.maybe<double>("depth_to"),
+                    static_cast<int>(range.get<std::int64_t>("depths")),
+                    range.maybe<std::vector<double>>("places").value_or(std::vector<double>{})};
+  if (const auto& places = read.stability.places;
+      !std::is_sorted(places.begin(), places.end(), std::less_equal<>()) && places.size() > 1)
+    diagnostics.add(Mistake::range, range.find("places")->where, range.find("places")->path,
+                    "found places that do not increase, expected them in order along the path");
   if (const Setting& to = *range.find("speed_to"); read.stability.speed_to <= read.stability.speed_from)
     diagnostics.add(Mistake::range, to.where, to.path,
                     fmt::format("found {:g} rad/s, expected more than stability.speed_from = {:g} rad/s",

@@ -20,6 +20,7 @@ struct StabilityRange {
   int speeds = 200;
   std::optional<double> depth_to; ///< m; none: as deep as is of interest
   int depths = 100;
+  std::vector<double> places; ///< m along the path, of a chart over them; none: there is none
 };
 
 /// How a cut in the time domain is resolved.
@@ -33,10 +34,13 @@ struct MachiningCase {
   machining::MillingCut cut;
   std::optional<double> rake;    ///< rad, of the edges
   machining::LawRange law_range; ///< from where to where the law holds, as the case says
-  double speed = 0.0;            ///< rad/s of the spindle
-  double axial_depth = 0.0;      ///< m
-  double length = 0.0;           ///< m, of the path of the axis in the time domain
-  double dwell = 0.0;            ///< turns at its end without feed
+  double speed = 0.0;            ///< rad/s of the spindle, the largest; so is the feed of the cut
+  std::optional<machining::DriveTables> drive; ///< where one of them changes with time
+  double axial_depth = 0.0;                    ///< m
+  double length = 0.0; ///< m, of the path of the axis in the time domain, all passes together
+  std::vector<machining::ToolPath> passes; ///< none: straight along x
+  std::optional<machining::Blank> blank;   ///< of passes
+  double dwell = 0.0;                      ///< turns at its end without feed
   machining::ProcessSettings::Start start = machining::ProcessSettings::Start::inside; ///< where it begins
   DexelSettings dexels;
   std::vector<NamedMode> modes;

@@ -27,6 +27,9 @@ std::string outside_reason(const Block& block, const Vec3& x);
 
 /// Cutter, cut, law, modes and what is asked of a milling analysis.
 void read_machining(Setting& root, Case& result, Diagnostics& diagnostics);
+struct MachiningCase;
+void read_drive(const Setting& milling, MachiningCase& read, Analysis::Type type, Diagnostics& diagnostics);
+void read_path(Setting& root, MachiningCase& read, const std::string& case_path, Diagnostics& diagnostics);
 /// Parts and shafts, of it and of analyses of modes.
 void read_structure(Setting& root, Case& result, Diagnostics& diagnostics);
 

@@ -62,7 +62,8 @@ CurvePiece arc_from_path(const Setting& item, CurvePiece piece, double size, con
   return piece;
 }
 
-Draft draft_of_path(const Setting& table, const std::string& curve_name) {
+/// Pieces of a `path` from `start` on, each named `name` unless it says; ends at the start are that.
+std::vector<CurvePiece> path_pieces(const Setting& table, const std::string& name) {
   const std::vector<Setting>& items = table.entries("path");
   const auto start = table.maybe<Vec2>("start");
   if (!start) throw OutlineError("start", "missing, expected the first corner such as \"0 0 mm\"");
@@ -70,30 +71,41 @@ Draft draft_of_path(const Setting& table, const std::string& curve_name) {
   double size = 0.0;
   for (const Setting& item : items) size = std::max(size, (item.get<Vec2>("to") - *start).norm());
   const double same_point = 1e-9 * size;
-
-  Draft draft;
+  std::vector<CurvePiece> pieces;
   Vec2 at = *start;
   for (const Setting& item : items) {
     const std::string key = "path" + item.name;
-    CurvePiece piece{at, item.get<Vec2>("to"), {0, 0}, 0.0, false, curve_name};
+    CurvePiece piece{at, item.get<Vec2>("to"), {0, 0}, 0.0, false, name};
     if ((piece.to - *start).norm() <= same_point) piece.to = *start;
-    if (const auto name = item.maybe<std::string>("name")) piece.name = *name;
+    if (const auto given = item.maybe<std::string>("name")) piece.name = *given;
     piece = arc_from_path(item, piece, size, key);
     if (!piece.is_arc() && (piece.to - piece.from).norm() <= same_point)
       throw OutlineError(
           key + ".to",
           fmt::format("the piece has no length, it begins and ends at {}, expected another point", show(at)));
-    draft.corners.push_back({item.maybe<double>("fillet").value_or(0.0),
-                             item.maybe<std::string>("fillet_name").value_or(piece.name), key + ".fillet"});
-    if (item.find("fillet_name") && !item.find("fillet"))
-      throw OutlineError(key + ".fillet_name", "there is no fillet to name, expected one beside it");
     at = piece.to;
-    draft.pieces.push_back(piece);
+    pieces.push_back(piece);
+  }
+  return pieces;
+}
+
+Draft draft_of_path(const Setting& table, const std::string& curve_name) {
+  Draft draft;
+  draft.pieces = path_pieces(table, curve_name);
+  const std::vector<Setting>& items = table.entries("path");
+  for (std::size_t k = 0; k < items.size(); ++k) {
+    const std::string key = "path" + items[k].name;
+    draft.corners.push_back({items[k].maybe<double>("fillet").value_or(0.0),
+                             items[k].maybe<std::string>("fillet_name").value_or(draft.pieces[k].name),
+                             key + ".fillet"});
+    if (items[k].find("fillet_name") && !items[k].find("fillet"))
+      throw OutlineError(key + ".fillet_name", "there is no fillet to name, expected one beside it");
     draft.keys.push_back(key + ".to");
   }
+  const Vec2 start = draft.pieces.front().from, at = draft.pieces.back().to;
   const auto close = table.maybe<std::string>("close");
-  if (at != *start) {
-    draft.pieces.push_back({at, *start, {0, 0}, 0.0, false, close.value_or(curve_name)});
+  if (at != start) {
+    draft.pieces.push_back({at, start, {0, 0}, 0.0, false, close.value_or(curve_name)});
     draft.corners.push_back({});
     draft.keys.push_back("close");
   } else if (close) {
@@ -249,5 +261,7 @@ Curve make_outline(const Setting& table, const OutlineNames& names) {
     rotate(curve, table.get<double>("rotate.angle"), table.get<Vec2>("rotate.centre"));
   return curve.area() < 0.0 ? curve.reversed() : curve;
 }
+
+std::vector<CurvePiece> pieces_of_path(const Setting& table) { return path_pieces(table, ""); }
 
 } // namespace cnem::input

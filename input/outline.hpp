@@ -27,6 +27,9 @@ struct OutlineNames {
 /// itself, names that are empty or "all".
 Curve make_outline(const Setting& table, const OutlineNames& names);
 
+/// The pieces of a table with `start` and `path` alone, which need not close. Throws OutlineError as above.
+std::vector<CurvePiece> pieces_of_path(const Setting& table);
+
 /// The same curve with arcs of at most half a turn: longer ones become two of their name.
 Curve split_long_arcs(const Curve& curve);
 

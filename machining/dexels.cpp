@@ -58,6 +58,41 @@ DexelLayer::DexelLayer(const Vec2& low, const Vec2& high, const Vec2& pitch) : l
   cell_.assign(count_[0] * count_[1], full);
 }
 
+DexelLayer::DexelLayer(const Vec2& low, const Vec2& high, const Vec2& pitch,
+                       const std::vector<std::array<Vec2, 4>>& pieces)
+    : DexelLayer(low, high, pitch) {
+  const double least = nothing * size_.prod();
+  std::vector<Pieces> within(cell_.size());
+  for (const std::array<Vec2, 4>& piece : pieces) {
+    // Of a trapezoid that ends in a tip the side without length divides nothing.
+    std::vector<Side> sides;
+    for (std::size_t k = 0; k < 4; ++k)
+      if (piece[k] != piece[(k + 1) % 4]) sides.push_back(Side::through(piece[k], piece[(k + 1) % 4]));
+    if (sides.size() < 3) continue;
+    Vec2 least_corner = piece[0], most_corner = piece[0];
+    for (const Vec2& corner : piece) {
+      least_corner = least_corner.cwiseMin(corner);
+      most_corner = most_corner.cwiseMax(corner);
+    }
+    const auto [from_x, to_x] = range(0, least_corner.x(), most_corner.x());
+    const auto [from_y, to_y] = range(1, least_corner.y(), most_corner.y());
+    for (std::size_t i = from_x; i < to_x; ++i)
+      for (std::size_t j = from_y; j < to_y; ++j)
+        if (division.divide<false>(square(i, j), sides, ~0U, least)) within[cell(i, j)].add(division.within);
+  }
+  for (std::size_t k = 0; k < cell_.size(); ++k) {
+    double area = 0.0;
+    for (std::size_t p = 0, begin = 0; p < within[k].size.size(); ++p)
+      area += area_of(within[k].next(p, begin));
+    if (area < size_.prod() * (1.0 - 1e-12)) {
+      cell_[k] = empty;
+      if (within[k].size.empty()) continue;
+      cell_[k] = static_cast<std::int32_t>(cut_.size());
+      cut_.push_back(std::move(within[k]));
+    }
+  }
+}
+
 std::array<Vec2, 4> DexelLayer::square(std::size_t i, std::size_t j) const {
   const auto corner = [&](std::size_t x, std::size_t y) {
     return Vec2(low_.x() + static_cast<double>(x) * size_.x(), low_.y() + static_cast<double>(y) * size_.y());
@@ -217,7 +252,7 @@ Bite DexelLayer::erase(const Sweep& sweep) {
   return bite;
 }
 
-void DexelLayer::erase_disc(const Vec2& centre, double radius) {
+double DexelLayer::erase_disc(const Vec2& centre, double radius) {
   constexpr int sectors = 1440;
   constexpr double angle = 2.0 * std::numbers::pi / sectors;
   const double out = radius * std::sqrt(angle / std::sin(angle)); // of as large an area as the disc
@@ -226,6 +261,7 @@ void DexelLayer::erase_disc(const Vec2& centre, double radius) {
   };
   Bite bite;
   for (int k = 0; k < sectors; ++k) erase({corner(k), corner((k + 1) % sectors), centre}, nullptr, bite);
+  return bite.area;
 }
 
 void DexelLayer::erase_box(const Vec2& low, const Vec2& high) {
@@ -281,6 +317,22 @@ double DexelLayer::area() const {
   return sum + static_cast<double>(whole) * size_.prod();
 }
 
+namespace {
+
+/// In order, those that touch as one. close: m
+std::vector<Interval> merged(std::vector<Interval> parts, double close) {
+  std::sort(parts.begin(), parts.end(), [](const Interval& a, const Interval& b) { return a.low < b.low; });
+  std::vector<Interval> merged;
+  for (const Interval& part : parts)
+    if (!merged.empty() && part.low <= merged.back().high + close)
+      merged.back().high = std::max(merged.back().high, part.high);
+    else
+      merged.push_back(part);
+  return merged;
+}
+
+} // namespace
+
 std::vector<Interval> DexelLayer::matter(int axis, double place) const {
   const int across = 1 - axis;
   const double row = std::floor((place - low_[across]) / size_[across]);
@@ -307,15 +359,37 @@ std::vector<Interval> DexelLayer::matter(int axis, double place) const {
       if (part.low < part.high) parts.push_back(part);
     }
   }
-  std::sort(parts.begin(), parts.end(), [](const Interval& a, const Interval& b) { return a.low < b.low; });
-  std::vector<Interval> merged;
-  const double close = 1e-9 * size_[axis];
-  for (const Interval& part : parts)
-    if (!merged.empty() && part.low <= merged.back().high + close)
-      merged.back().high = std::max(merged.back().high, part.high);
-    else
-      merged.push_back(part);
-  return merged;
+  return merged(std::move(parts), 1e-9 * size_[axis]);
+}
+
+std::vector<Interval> DexelLayer::matter(const Vec2& from, const Vec2& along, double length) const {
+  const Vec2 to = from + length * along;
+  const auto [from_x, to_x] = range(0, std::min(from.x(), to.x()), std::max(from.x(), to.x()));
+  const auto [from_y, to_y] = range(1, std::min(from.y(), to.y()), std::max(from.y(), to.y()));
+  std::vector<Interval> parts;
+  const auto add = [&](std::span<const Vec2> polygon) {
+    Interval part{0.0, length};
+    for (std::size_t k = 0; k < polygon.size(); ++k) {
+      const Side side = Side::through(polygon[k], polygon[(k + 1) % polygon.size()]);
+      const double height = side.height(from), slope = side.normal.dot(along); // within where ≤ 0
+      if (slope == 0.0) {
+        if (height > 0.0) return;
+      } else if (slope > 0.0)
+        part.high = std::min(part.high, -height / slope);
+      else
+        part.low = std::max(part.low, -height / slope);
+    }
+    if (part.low < part.high) parts.push_back(part);
+  };
+  for (std::size_t i = from_x; i < to_x; ++i)
+    for (std::size_t j = from_y; j < to_y; ++j) {
+      const std::int32_t index = cell_[cell(i, j)];
+      if (index == full) add(square(i, j));
+      if (index < 0) continue;
+      const Pieces& pieces = cut_[index_of(index)];
+      for (std::size_t p = 0, begin = 0; p < pieces.size.size(); ++p) add(pieces.next(p, begin));
+    }
+  return merged(std::move(parts), 1e-9 * size_.minCoeff());
 }
 
 } // namespace cnem::machining

@@ -44,13 +44,17 @@ class DexelLayer {
 public:
   /// pitch: m, the most that cells measure along x and y.
   DexelLayer(const Vec2& low, const Vec2& high, const Vec2& pitch);
+  /// Matter of convex quadrilaterals alone, counter-clockwise, that share no area.
+  DexelLayer(const Vec2& low, const Vec2& high, const Vec2& pitch,
+             const std::vector<std::array<Vec2, 4>>& pieces);
 
   /// What a rake would take.
   Bite ask(const Sweep& sweep) const;
   /// Takes it: afterwards the area is less by that of the bite.
   Bite erase(const Sweep& sweep);
-  /// Takes away all within a polygon of as large an area as a disc, and within a rectangle.
-  void erase_disc(const Vec2& centre, double radius);
+  /// Takes away all within a polygon of as large an area as a disc, and within a rectangle. The area that
+  /// was there, m².
+  double erase_disc(const Vec2& centre, double radius);
   void erase_box(const Vec2& low, const Vec2& high);
 
   double area() const; ///< m² of matter
@@ -60,6 +64,8 @@ public:
   /// Matter on the line along an axis that crosses the other one at a place, m, in order; none beside the
   /// box.
   std::vector<Interval> matter(int axis, double place) const;
+  /// Matter on a line of a length, m, from a place along a unit vector: distances from there, m, in order.
+  std::vector<Interval> matter(const Vec2& from, const Vec2& along, double length) const;
 
 private:
   /// Pieces of a cell, one behind the other, with their numbers of corners.

@@ -32,10 +32,12 @@ Rake EdgeElements::rake(std::size_t layer, std::size_t tooth, const CutterPlace&
   return {axis + radius * out, axis + std::max(0.0, radius - reach) * out};
 }
 
-void EdgeElements::add(EdgeLoad& load, std::size_t layer, std::size_t tooth, const Bite& bite, double path,
-                       double duration, const CutterPlace& from, const CutterPlace& to) const {
+void EdgeElements::add(EdgeLoad& load, std::size_t layer, std::size_t tooth, const Bite& bite,
+                       const Vec3& way, double duration, const CutterPlace& from,
+                       const CutterPlace& to) const {
   const double share = bite.share();
   if (!(bite.area > 0.0) || !(share > 0.0)) return;
+  const double path = way.head<2>().norm();
   const Layer& at = layer_[layer];
   // Over the part of its way on which the edge cuts. The chip is as thick, from the edge inwards, as makes
   // the area: its middle goes a shorter way round the axis than its edge, h (1 − h/2r) = a.
@@ -45,10 +47,17 @@ void EdgeElements::add(EdgeLoad& load, std::size_t layer, std::size_t tooth, con
   const double inward = a / of_edge;
   const double chip = inward * thickness_ / at.width;
   const double middle = 0.5 * (bite.begin + bite.end);
-  const double phi = from.angle + middle * (to.angle - from.angle) - teeth_[tooth] - at.lag;
+  const double turned = from.angle + middle * (to.angle - from.angle);
+  const double phi = turned - teeth_[tooth] - at.lag;
   const Vec3 local = at.width * share * cut_.law.at({.thickness = chip, .speed = path / duration}).force;
-  load.force += on_tool(phi, at.lead, local);
+  const Vec3 force = on_tool(phi, at.lead, local);
+  load.force += force;
   load.torque += local[0] * at.radius;
+  if (const Cutter& cutter = cut_.cutter; cutter.run_out > 0.0) { // round the axis of the spindle
+    const double out = turned + cutter.run_out_angle;
+    load.torque -= cutter.run_out * (force.x() * std::cos(out) - force.y() * std::sin(out));
+  }
+  load.work -= force.dot(way);
   load.power += local[0] * path * of_edge / duration;
   load.removed += bite.area * thickness_;
   load.thickest = std::max(load.thickest, chip);

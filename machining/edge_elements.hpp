@@ -17,6 +17,7 @@ struct CutterPlace {
 struct EdgeLoad {
   Vec3 force = Vec3::Zero(); ///< N
   double torque = 0.0;       ///< N m, against the spindle
+  double work = 0.0;         ///< J, of edges along their ways relative to the part
   double power = 0.0;        ///< W, of the forces along the ways of the middles of chips
   double removed = 0.0;      ///< m³
   double thickest = 0.0;     ///< m, chip
@@ -40,9 +41,9 @@ public:
   /// cuts a layer farther down its profile.
   Rake rake(std::size_t layer, std::size_t tooth, const CutterPlace& place, double reach) const;
 
-  /// Adds what an element bears that has taken a bite on its way in a step, of a duration, s, and between two
-  /// angles of the cutter.
-  void add(EdgeLoad& load, std::size_t layer, std::size_t tooth, const Bite& bite, double path,
+  /// Adds what an element bears that has taken a bite on its way in a step, m relative to the part, of a
+  /// duration, s, and between two angles of the cutter.
+  void add(EdgeLoad& load, std::size_t layer, std::size_t tooth, const Bite& bite, const Vec3& way,
            double duration, const CutterPlace& from, const CutterPlace& to) const;
 
 private:

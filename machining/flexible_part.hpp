@@ -65,6 +65,8 @@ public:
   void press(const Vec3& material, const Vec3& force) { end_.press(material, force, load_); }
   /// Φ⁺ of the end as these forces have it.
   void answer() { end_.displace(motion_->ask(load_)); }
+  /// J, of these forces between both ends of the step.
+  double work() const { return load_.dot(end_.displacements() - begin_.displacements()); }
   /// Throws DivergenceError where Φ⁺ of the end is not one-to-one.
   void check() const;
   /// Ends the step, under the forces that there are now.

@@ -4,91 +4,55 @@
 #include "core/machine/parallel.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <fmt/format.h>
 #include <tuple>
 
 namespace cnem::machining {
 
-namespace {
-
-/// m, x of the axis at first, and how far matter goes on beyond where teeth are.
-struct Margins {
-  Margins(const Cutter& cutter, ProcessSettings::Start start)
-      : beyond(cutter.run_out + 0.25 * cutter.radius()),
-        begin(start == ProcessSettings::Start::outside ? -cutter.radius() - beyond : 0.0) {}
-  double beyond, begin;
-};
-
-} // namespace
-
-Workpiece workpiece_of(const MillingCut& cut, const ProcessSettings& settings) {
-  using enum ProcessSettings::Start;
-  const Cutter& cutter = cut.cutter;
-  const auto [beyond, begin] = Margins(cutter, settings.start);
-  const double r = cutter.radius(), depth = cut.engagement.radial_depth;
-  const bool up = cut.engagement.side == Engagement::Side::up, slot = depth >= cutter.diameter;
-  // Matter on the side where the teeth cut: its free surface is `depth` inside of where they reach.
-  return {{settings.start == outside ? 0.0
-           : settings.start == hole  ? -r - beyond
-                                     : -0.25 * r,
-           slot || !up ? -r - beyond : r - depth, 0.0},
-          {begin + settings.length + r + beyond, slot || up ? r + beyond : depth - r, settings.axial_depth}};
-}
-
 MillingProcess::MillingProcess(MillingCut cut, std::vector<Mode> modes, const ProcessSettings& settings,
                                std::unique_ptr<FlexiblePart> part)
-    : cut_(std::move(cut)), modes_(std::move(modes)), settings_(settings),
-      dt_(full_turn / settings.spindle / settings.steps),
+    : cut_(std::move(cut)), modes_(std::move(modes)), settings_(settings), motion_(motion_of(cut_, settings)),
+      dt_(motion_.dt(0)),
       feed_speed_(cut_.feed * static_cast<double>(cut_.cutter.teeth()) * settings.spindle / full_turn),
       edges_(cut_, settings.axial_depth, settings.layers, full_turn / settings.steps),
       part_(std::move(part)) {
-  using enum ProcessSettings::Start;
-  start_ = Margins(cut_.cutter, settings.start).begin;
-  const double r = cut_.cutter.radius();
-  const Workpiece block = workpiece_of(cut_, settings);
-  const Vec2 low = block.low.head<2>(), high = block.high.head<2>();
-  // Cells of about a degree of the cutter are the fastest, measured; what is taken does not depend on them.
-  constexpr double degrees = 60.0;
-  const DexelLayer whole(low, high, Vec2::Constant(std::max(settings.pitch, r / degrees)));
-  block_ = whole.area() * settings.axial_depth;
-  for (std::size_t k = 0; k < edges_.layers();
-       ++k) { // what earlier turns have left: the disc, and its way there
-    const double radius = edges_.radius(k);
-    if (k > 0 && radius == edges_.radius(k - 1)) {
-      layer_.push_back(layer_.back());
-      continue;
-    }
-    layer_.push_back(whole);
-    if (settings.start == hole) layer_[k].erase_disc(Vec2::Zero(), radius);
-    if (settings.start != inside) continue;
-    layer_[k].erase_disc(Vec2(-feed_of_turn(), 0.0), radius);
-    layer_[k].erase_box(Vec2(low.x(), -radius), Vec2(-feed_of_turn(), radius));
+  assert(settings.passes.empty() == !settings.blank);
+  assert(!part_ || (settings.passes.empty() && !settings.drive));
+  take_blank();
+  for (const Mode& mode : modes_) {
+    free_.emplace_back(mode, dt_);
+    loss_.push_back(damping_loss(mode, dt_));
   }
-  for (const Mode& mode : modes_) free_.emplace_back(mode, dt_);
   state_ = Eigen::MatrixXd::Zero(2, static_cast<Eigen::Index>(modes_.size()));
   bite_.resize(edges_.layers() * edges_.teeth());
-  path_.resize(bite_.size());
-  shape_ = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(layer_.size()), state_.cols());
+  way_.resize(bite_.size());
   if (part_) edge_.resize(bite_.size());
+  shape_ = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(layer_.size()), state_.cols());
   shift_.assign(layer_.size(), Vec3::Zero());
   force_ = shift_;
 }
 
-double MillingProcess::axis_at(double turns) const {
-  return start_ + std::min(feed_of_turn() * turns, settings_.length);
-}
+Vec2 MillingProcess::axis_at(double at) const { return motion_.axis(motion_.pass_of(step_), at); }
 
-bool MillingProcess::at_end() const { return time() >= duration(); }
+bool MillingProcess::at_end() const { return motion_.at_end(step_); }
 
-double MillingProcess::volume() const {
-  double sum = 0.0;
-  for (const DexelLayer& layer : layer_) sum += layer.area();
-  return sum * edges_.thickness();
+void MillingProcess::begin_step() {
+  if (const double dt = motion_.dt(step_); dt != dt_) {
+    dt_ = dt;
+    for (std::size_t i = 0; i < modes_.size(); ++i) {
+      free_[i] = FreeMotion(modes_[i], dt_);
+      loss_[i] = damping_loss(modes_[i], dt_);
+    }
+  }
+  if (settings_.passes.empty()) return;
+  const std::size_t pass = motion_.pass_of(step_);
+  if (motion_.passes()[pass].begin == step_) begin_pass(pass);
 }
 
 void MillingProcess::take_shapes() {
-  const double x = axis_at((static_cast<double>(step_) + 0.5) / settings_.steps);
+  const double x = axis_at(static_cast<double>(step_) + 0.5).x();
   for (std::size_t i = 0; i < modes_.size(); ++i)
     for (std::size_t k = 0; k < layer_.size(); ++k)
       shape_(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(i)) = modes_[i].shape(x, height(k));
@@ -106,8 +70,9 @@ MillingProcess::PerLayer MillingProcess::shift_of(const Eigen::MatrixXd& state) 
 }
 
 CutterPlace MillingProcess::place(std::int64_t step) const {
-  const double turns = static_cast<double>(step) / settings_.steps;
-  return {Vec3(axis_at(turns), 0.0, 0.0), full_turn * turns};
+  const double at = static_cast<double>(step);
+  const Vec2 axis = axis_at(at);
+  return {Vec3(axis.x(), axis.y(), 0.0), full_turn * (at / settings_.steps)};
 }
 
 namespace {
@@ -157,7 +122,7 @@ MillingProcess::PerLayer MillingProcess::relative(const PerLayer& shift) const {
   const double side = cut_.engagement.side == Engagement::Side::up ? r : -r;
   PerLayer beside = shift;
   for (std::size_t k = 0; k < beside.size(); ++k)
-    beside[k] -= part_->end().displacement(Vec3(axis(), side, height(k)));
+    beside[k] -= part_->end().displacement(Vec3(axis().x(), side, height(k)));
   return beside;
 }
 
@@ -184,7 +149,8 @@ EdgeLoad MillingProcess::bear(const PerLayer& shift, PerLayer& force, TakeBite&&
         const Vec2 middle = 0.5 * (sweep.from.edge + sweep.to.edge);
         edge_[k * edges_.teeth() + j] = {middle.x(), middle.y(), height(k)};
       }
-      path_[k * edges_.teeth() + j] = sweep.path();
+      const Vec2 way = sweep.to.edge - sweep.from.edge;
+      way_[k * edges_.teeth() + j] = {way.x(), way.y(), last.axis.z() - first.axis.z()};
       bite_[k * edges_.teeth() + j] = bite(k, sweep);
     }
   }
@@ -195,7 +161,7 @@ EdgeLoad MillingProcess::bear(const PerLayer& shift, PerLayer& force, TakeBite&&
     const Vec3 below = load.force;
     for (std::size_t j = 0; j < edges_.teeth(); ++j, ++i) {
       const Vec3 others = load.force;
-      edges_.add(load, k, j, bite_[i], path_[i], dt_, from, to);
+      edges_.add(load, k, j, bite_[i], way_[i], dt_, from, to);
       if (part_) part_->press(edge_[i], others - load.force);
     }
     force[k] = load.force - below;
@@ -203,28 +169,55 @@ EdgeLoad MillingProcess::bear(const PerLayer& shift, PerLayer& force, TakeBite&&
   return load;
 }
 
+double MillingProcess::rest_of(std::size_t mode, const PerLayer& force) const {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t k = 0; k < layer_.size(); ++k)
+    sum += shape_(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(mode)) * force[k];
+  return modes_[mode].participation().dot(sum) / modes_[mode].stiffness;
+}
+
 Eigen::MatrixXd MillingProcess::moved(const PerLayer& force) const {
   Eigen::MatrixXd state = state_;
   for (std::size_t i = 0; i < modes_.size(); ++i) {
     const auto column = static_cast<Eigen::Index>(i);
-    Vec3 sum = Vec3::Zero();
-    for (std::size_t k = 0; k < layer_.size(); ++k)
-      sum += shape_(static_cast<Eigen::Index>(k), column) * force[k];
-    const Vec2 rest(modes_[i].participation().dot(sum) / modes_[i].stiffness, 0.0);
+    const Vec2 rest(rest_of(i, force), 0.0);
     state.col(column) = rest + free_[i].of_state * (state_.col(column) - rest);
   }
   return state;
 }
 
+void MillingProcess::book(const EdgeLoad& load, const Eigen::MatrixXd& state, const PerLayer& shift) {
+  const CutterPlace from = place(step_), to = place(step_ + 1);
+  double of_shift = 0.0, of_modes = 0.0; // J, of the forces
+  for (std::size_t k = 0; k < layer_.size(); ++k) of_shift += force_[k].dot(shift[k] - shift_[k]);
+  ledger_.kinetic = ledger_.elastic = 0.0;
+  for (std::size_t i = 0; i < modes_.size(); ++i) {
+    const auto column = static_cast<Eigen::Index>(i);
+    const double stiffness = modes_[i].stiffness;
+    const double rest = rest_of(i, force_);
+    const Vec2 begin = state_.col(column) - Vec2(rest, 0.0);
+    of_modes += stiffness * rest * (state(0, column) - state_(0, column));
+    ledger_.damping += begin.dot(loss_[i] * begin);
+    ledger_.elastic += 0.5 * stiffness * state(0, column) * state(0, column);
+    ledger_.kinetic += 0.5 * stiffness * state(1, column) * state(1, column);
+  }
+  if (part_) ledger_.part += part_->work();
+  ledger_.cutting += load.work;
+  ledger_.spindle += load.torque * (to.angle - from.angle);
+  // A cutter that is fed along a mode whose shape changes there goes with that shape: the feed does that.
+  ledger_.feed -= load.force.dot(to.axis - from.axis) + of_shift - of_modes;
+}
+
 ProcessStep MillingProcess::advance() {
+  begin_step();
   take_shapes();
   PerLayer shift = shift_of(moved(force_));
   if (part_) part_->answer();
   // Where an edge only just touches its force comes and goes from one question to the next: what that moves
   // is told from a failure by its size.
   constexpr int enough = 5, most = 30;
-  constexpr double close = 1e-12; // m
-  const double touch = 1e-6 * cut_.feed;
+  constexpr double close = 1e-12;                                 // m
+  const double touch = 1e-6 * cut_.feed, rubs = 1e-4 * cut_.feed; // spring passes do little else
   for (int iteration = 0; !modes_.empty() || part_; ++iteration) {
     bear(shift, force_, [&](std::size_t k, const Sweep& sweep) { return layer_[k].ask(sweep); });
     PerLayer next = shift_of(moved(force_));
@@ -239,12 +232,14 @@ ProcessStep MillingProcess::advance() {
         change = std::max(change, (after[k] - before[k]).norm());
     }
     if (change < close || (iteration >= enough && change < touch)) break;
+    if (iteration >= most && change < rubs) break;
     if (iteration >= most && part_) part_->check(); // what folds need not agree with anything
     if (iteration >= most)
       throw DivergenceError(
-          fmt::format("forces and vibration of a step do not agree: the shift of the cutter still "
-                      "changes by {:.3g} m, expected smaller steps (dexels.steps)",
-                      change),
+          fmt::format(
+              "forces and vibration of a step do not agree: the shift of the cutter still changes by {:.3g} m, "
+              "expected smaller steps (dexels.steps)",
+              change),
           -1, "displacement");
   }
   if (part_) part_->check();
@@ -252,8 +247,11 @@ ProcessStep MillingProcess::advance() {
   static_cast<EdgeLoad&>(step) =
       bear(shift, force_, [&](std::size_t k, const Sweep& sweep) { return layer_[k].erase(sweep); });
   step.time = time() + 0.5 * dt_;
-  step.angle = settings_.spindle * step.time;
-  state_ = moved(force_);
+  step.angle = motion_.steady() ? settings_.spindle * step.time
+                                : place(step_).angle + 0.5 * full_turn / settings_.steps;
+  Eigen::MatrixXd state = moved(force_);
+  book(step, state, shift);
+  state_ = std::move(state);
   PerLayer beside;
   if (part_) {
     beside = relative(shift);
@@ -284,16 +282,10 @@ void MillingProcess::archive(Archive& archive) {
     std::copy(numbers.begin(), numbers.end(), list->front().data());
   }
   archive.number("milling/farthest", "m", farthest_);
+  ledger_.archive(archive);
   if (part_) part_->archive(archive);
   for (std::size_t k = 0; k < layer_.size(); ++k)
     layer_[k].archive(archive, fmt::format("milling/layer/{}/", k));
-}
-
-std::optional<double> MillingProcess::left_at(std::size_t layer, double x) const {
-  const std::vector<Interval> matter = layer_[layer].matter(1, x);
-  if (matter.empty()) return std::nullopt;
-  const bool up = cut_.engagement.side == Engagement::Side::up;
-  return up ? edges_.radius(layer) - matter.back().low : matter.front().high + edges_.radius(layer);
 }
 
 } // namespace cnem::machining

@@ -1,12 +1,16 @@
 #pragma once
 // Milling in the time domain: teeth sweep through dexels, what they remove makes forces, forces make the
 // modes swing (paper 004, section 3.2 and Box 1: (5), (6)).
+#include "machining/blank.hpp"
 #include "machining/edge_elements.hpp"
 #include "machining/flexible_part.hpp"
+#include "machining/milling_ledger.hpp"
 #include "machining/mode.hpp"
+#include "machining/tool_motion.hpp"
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -15,7 +19,7 @@ namespace cnem::machining {
 struct ProcessSettings {
   /// Where the cutter begins: in the middle of a cut, in a hole of its own size, or beside the workpiece.
   enum class Start { inside, hole, outside };
-  double spindle = 0.0;     ///< rad/s
+  double spindle = 0.0;     ///< rad/s; the largest where `drive` changes it, as the feed of the cut is
   double axial_depth = 0.0; ///< m
   double length = 0.0;      ///< m, of the path of the cutter's axis along +x
   double dwell = 0.0;       ///< turns at its end, without feed
@@ -23,6 +27,10 @@ struct ProcessSettings {
   double pitch = 0.0; ///< m, of dexels
   int layers = 1;     ///< along the axis
   int steps = 0;      ///< in a turn
+  /// In place of length: passes through a blank, which begin in a hole or beside matter.
+  std::vector<ToolPath> passes{};
+  std::optional<Blank> blank{};
+  std::optional<DriveTables> drive{};
 };
 
 struct ProcessStep : EdgeLoad {
@@ -32,15 +40,18 @@ struct ProcessStep : EdgeLoad {
                                     ///< layer where it is the largest
 };
 
-/// Corners of the workpiece at first, m, over the path: x and y, and z from the tip to the depth.
+/// Corners of the workpiece at first, m: x and y, and z from the tip to the depth.
 struct Workpiece {
   Vec3 low, high;
 };
 Workpiece workpiece_of(const MillingCut& cut, const ProcessSettings& settings);
+/// The way of the cutter's axis.
+ToolMotion motion_of(const MillingCut& cut, const ProcessSettings& settings);
 
 class MillingProcess {
 public:
-  /// part: one that deforms where it is cut, in axes of the cut; none: it is rigid but for its modes.
+  /// part: one that deforms where it is cut, in axes of the cut, for a cutter that goes straight along x at a
+  /// constant speed; none: it is rigid but for its modes.
   MillingProcess(MillingCut cut, std::vector<Mode> modes, const ProcessSettings& settings,
                  std::unique_ptr<FlexiblePart> part = nullptr);
 
@@ -53,19 +64,18 @@ public:
   void archive(Archive& archive);
 
   std::int64_t steps() const { return step_; }
-  double time() const { return static_cast<double>(step_) * dt_; }
-  double duration() const {
-    return settings_.length / feed_speed_ + settings_.dwell * full_turn / settings_.spindle;
-  }                                       ///< s
-  double start() const { return start_; } ///< m, x of the axis at first
-  /// m, x of the cutter's axis without vibration.
-  double axis() const { return axis_at(static_cast<double>(step_) / settings_.steps); }
+  double time() const { return motion_.time(step_); }
+  const ToolMotion& motion() const { return motion_; }
+  /// m, of the cutter's axis without vibration at the begin of the next step.
+  Vec2 axis() const { return axis_at(static_cast<double>(step_)); }
   const FlexiblePart* part() const { return part_.get(); } ///< none: it is rigid but for its modes
   Workpiece workpiece() const { return workpiece_of(cut_, settings_); }
   const std::vector<DexelLayer>& layers() const { return layer_; }
   double height(std::size_t layer) const { return edges_.height(layer); } ///< m, middle of it over the tip
+  double radius(std::size_t layer) const { return edges_.radius(layer); } ///< m, of the cutter
   double volume() const;                                                  ///< m³ of matter
   double block() const { return block_; } ///< m³ of matter before anything was taken
+  const MillingLedger& ledger() const { return ledger_; }
   /// Whether teeth reach matter in a layer: the end of a cutter is thinner.
   bool cuts(std::size_t layer) const {
     return edges_.radius(layer) > cut_.cutter.radius() - cut_.engagement.radial_depth;
@@ -73,14 +83,20 @@ public:
   /// m, matter that is left on the machined side beyond where the teeth pass, at a place along x; negative:
   /// too much was taken. None where no matter is left.
   std::optional<double> left_at(std::size_t layer, double x) const;
+  /// The same beside the last pass, at a way along it, m.
+  std::optional<double> left_beside(std::size_t layer, double way) const;
   /// m that the cutter goes on in a turn.
   double feed_of_turn() const { return feed_speed_ * full_turn / settings_.spindle; }
 
 private:
   using PerLayer = std::vector<Vec3>;
 
-  double axis_at(double turns) const;
+  Vec2 axis_at(double at) const;              ///< m, at a time in steps within the pass of this step
   CutterPlace place(std::int64_t step) const; ///< without vibration
+  void take_blank();
+  /// Takes the duration of this step; the cutter goes to the begin of a pass. Throws DivergenceError.
+  void begin_step();
+  void begin_pass(std::size_t pass);
   /// What teeth remove and bear whose cutter is shifted at the end of the step, m for each layer; forces on
   /// the tool for each, N, come into `force`. bite(layer, sweep): what is taken of a layer, or would be.
   template<class TakeBite> EdgeLoad bear(const PerLayer& shift, PerLayer& force, TakeBite&& bite);
@@ -90,31 +106,38 @@ private:
                     double depth, const Sweep& sweep) const;
   /// Of the cutter relative to the part, m, at the machined side of each layer.
   PerLayer relative(const PerLayer& shift) const;
+  /// m, where a mode would rest under forces.
+  double rest_of(std::size_t mode, const PerLayer& force) const;
   /// Modes are integrated exactly under the mean force of the step.
   Eigen::MatrixXd moved(const PerLayer& force) const;
   PerLayer shift_of(const Eigen::MatrixXd& state) const;
   /// Of modes in layers, where the cutter is in the middle of this step.
   void take_shapes();
+  /// Books a step that ends with these states and shifts.
+  void book(const EdgeLoad& load, const Eigen::MatrixXd& state, const PerLayer& shift);
   /// m, how deep rakes have to be: thicker than any chip.
   double reach(const PerLayer& shift) const;
 
   MillingCut cut_;
   std::vector<Mode> modes_;
   ProcessSettings settings_;
-  double dt_ = 0.0, feed_speed_ = 0.0, start_ = 0.0, block_ = 0.0;
+  ToolMotion motion_;
+  double dt_ = 0.0, feed_speed_ = 0.0, block_ = 0.0;
   std::vector<FreeMotion> free_;
+  std::vector<Mat2> loss_; ///< of modes in a step, damping_loss()
   EdgeElements edges_;
   std::int64_t step_ = 0;
   std::vector<DexelLayer> layer_;
-  std::vector<Bite> bite_;   ///< [layer × tooth] of the last question
-  std::vector<double> path_; ///< [layer × tooth] m
-  Eigen::MatrixXd state_;    ///< [2 × modes] (q, v/ω)
-  Eigen::MatrixXd shape_;    ///< [layers × modes] –, in this step
+  std::vector<Bite> bite_; ///< [layer × tooth] of the last question
+  std::vector<Vec3> way_;  ///< [layer × tooth] m, of the edge relative to the part
+  Eigen::MatrixXd state_;  ///< [2 × modes] (q, v/ω)
+  Eigen::MatrixXd shape_;  ///< [layers × modes] –, in this step
   std::unique_ptr<FlexiblePart> part_;
   std::vector<Vec3> edge_; ///< [layer × tooth] m, of the material, where the edge is in the middle of its way
   PerLayer shift_;         ///< m, at the begin of the step
   PerLayer force_;         ///< N, of the last step
   double farthest_ = 0.0;  ///< m, the largest shift so far
+  MillingLedger ledger_;
 };
 
 } // namespace cnem::machining

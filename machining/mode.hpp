@@ -19,9 +19,24 @@ struct Mode {
   /// How it changes along the path and over the height where the cutter cuts, as shares of the displacement
   /// that the stiffness is of; linear between, 1 without points. m, –
   NumberList along{}, shape_along{}, height{}, shape_over_height{};
+  /// At the places along the path, as shares of `frequency`, where the modal mass stays: a wall that gets
+  /// thinner. Lobes take it; in the time domain there is none.
+  NumberList frequency_along{};
 
   double shape(double x, double z) const {
     return piecewise_linear(along, shape_along, x) * piecewise_linear(height, shape_over_height, z);
+  }
+  bool moves_at(double x) const { return piecewise_linear(along, shape_along, x) != 0.0; }
+  /// The mode as a cutter meets it at a place along the path, m: the same along all of it. It has to move
+  /// there.
+  Mode at(double x) const {
+    const double share = piecewise_linear(along, shape_along, x);
+    const double faster = frequency_along.size > 0 ? piecewise_linear(along, frequency_along, x) : 1.0;
+    Mode mode = *this;
+    mode.along = mode.shape_along = mode.frequency_along = {};
+    mode.frequency *= faster;
+    mode.stiffness *= faster * faster / (share * share);
+    return mode;
   }
   double omega() const { return 2.0 * std::numbers::pi * frequency; } ///< rad/s
   double mass() const { return stiffness / (omega() * omega()); }     ///< kg

@@ -5,8 +5,12 @@
 #include "results/output_folder.hpp"
 
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
+#include <limits>
 #include <numbers>
+#include <optional>
+#include <tuple>
 
 namespace cnem::report {
 
@@ -33,9 +37,80 @@ private:
   std::size_t first_ = 0;
 };
 
+std::optional<double> metric(const results::RunStatus& status, const std::string& name) {
+  for (const auto& [known, value] : status.metrics)
+    if (known == "milling." + name) return value;
+  return std::nullopt;
+}
+
+/// Lines from the axis up, at frequencies.
+ChartSeries marks(const std::vector<double>& frequency, double height, const char* label, int colour) {
+  ChartSeries series{.label = label, .x = {}, .y = {}, .colour = colour, .faint = true};
+  for (const double f : frequency) {
+    series.x.insert(series.x.end(), {f, f, f});
+    series.y.insert(series.y.end(), {0.0, height, std::numeric_limits<double>::quiet_NaN()});
+  }
+  return series;
+}
+
+void add_spectra(std::vector<Chart>& charts, const std::filesystem::path& folder,
+                 const results::RunStatus& status) {
+  const std::filesystem::path path = folder / results::files::spectra;
+  if (!std::filesystem::exists(path)) return;
+  const results::HistoryTable table = results::read_history(path);
+  const std::vector<double>& frequency = table.column.front();
+  std::vector<double> teeth;
+  for (std::size_t k = 1; k < frequency.size(); ++k)
+    if (table.column[1][k] == 2.0) teeth.push_back(frequency[k]);
+  for (const auto& [title, label, unit, columns] :
+       {std::tuple{"Spectrum of the forces", "amplitude", "N", std::array{"Fx", "Fy", "Fz"}},
+        {"Spectrum of the vibration", "amplitude", "m", std::array{"x", "y", "z"}}}) {
+    Chart chart{.title = title,
+                .x_label = "frequency",
+                .x_unit = "Hz",
+                .y_label = label,
+                .y_unit = unit,
+                .series = {},
+                .note = "Of the second half of the last pass, without the mean."};
+    double most = 0.0;
+    int colour = 0;
+    for (const char* name : columns) {
+      const int column = table.find(name);
+      if (column < 0) continue;
+      chart.series.push_back(
+          {.label = name, .x = frequency, .y = table.column[index_of(column)], .colour = colour++});
+      most = std::max(most, *std::max_element(chart.series.back().y.begin(), chart.series.back().y.end()));
+    }
+    if (chart.series.empty() || !(most > 0.0)) continue;
+    chart.series.push_back(marks(teeth, most, "harmonics of the teeth", 3));
+    if (const auto chatter = metric(status, "chatter_frequency"))
+      chart.series.push_back(marks({*chatter}, most, "chatter", 4));
+    charts.push_back(std::move(chart));
+  }
+}
+
+Chart energy_chart(const results::HistoryTable& history) {
+  Chart chart{.title = "Energies",
+              .x_label = "time",
+              .x_unit = "s",
+              .y_label = "energy",
+              .y_unit = "J",
+              .series = {},
+              .note = "Spindle and feed put in what the cut takes, what damping loses and what modes hold."};
+  int colour = 0;
+  for (const char* name : {"spindle", "cutting", "damping", "kinetic", "elastic", "feed"})
+    if (const int column = history.find(std::string("energy.") + name); column >= 0)
+      chart.series.push_back({.label = name,
+                              .x = history.column.front(),
+                              .y = history.column[index_of(column)],
+                              .colour = colour++});
+  return chart;
+}
+
 } // namespace
 
-std::vector<Chart> milling_charts(const std::filesystem::path& folder, const results::HistoryTable& history) {
+std::vector<Chart> milling_charts(const std::filesystem::path& folder, const results::HistoryTable& history,
+                                  const results::RunStatus& status) {
   const std::filesystem::path path = folder / results::files::machined_surface;
   if (!std::filesystem::exists(path) || history.rows() < 2) return {};
   const LastTurns last(history);
@@ -55,6 +130,8 @@ std::vector<Chart> milling_charts(const std::filesystem::path& folder, const res
                             over_angle("Thickest chip", "thickness", "m", {last.series("thickest", "", 0)}),
                             over_angle("Tool relative to the part", "displacement", "m",
                                        {last.series("x", "x", 0), last.series("y", "y", 1)})};
+  add_spectra(charts, folder, status);
+  if (Chart energies = energy_chart(history); !energies.series.empty()) charts.push_back(std::move(energies));
   const results::HistoryTable surface = results::read_history(path);
   if (surface.rows() < 2) return charts;
   Chart left{.title = "Machined surface",
@@ -96,6 +173,7 @@ std::vector<Figure> milling_figures(const results::RunStatus& status, const resu
   add("peak_to_valley", "Peak to valley", "along the feed");
   add("location_error", "Location error", "positive: material is left");
   add("chip_growth", "Chips", "times as thick as without vibration");
+  add("chatter_frequency", "Chatter", "the strongest vibration that is no harmonic");
   return figures;
 }
 

@@ -9,9 +9,11 @@
 
 namespace cnem::report {
 
-/// Forces, chip and vibration of the last two turns, and what is left on the machined side, from surface.csv;
-/// none where that file is not there. Throws IoError.
-std::vector<Chart> milling_charts(const std::filesystem::path& folder, const results::HistoryTable& history);
+/// Forces, chip and vibration of the last two turns, spectra of the second half of the last pass, from
+/// spectra.csv, with harmonics of the teeth and the frequency of chatter, energies, and what is left on the
+/// machined side, from surface.csv; none where the latter file is not there. Throws IoError.
+std::vector<Chart> milling_charts(const std::filesystem::path& folder, const results::HistoryTable& history,
+                                  const results::RunStatus& status);
 
 /// The numbers to see first; none of a run that is no milling analysis.
 std::vector<Figure> milling_figures(const results::RunStatus& status, const results::ShownUnits& units);

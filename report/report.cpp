@@ -119,11 +119,12 @@ ReportData collect_report(const fs::path& folder, const results::RunStatus& stat
                              .units = report.units});
   if (auto lobes = stability_lobes(folder, status)) {
     report.charts.push_back(std::move(*lobes));
+    if (auto along = stability_along(folder, status)) report.charts.push_back(std::move(*along));
     report.charts_title = "Stability";
     report.figures = stability_figures(status, report.units);
   }
   if (history)
-    if (std::vector<Chart> charts = milling_charts(folder, *history); !charts.empty()) {
+    if (std::vector<Chart> charts = milling_charts(folder, *history, status); !charts.empty()) {
       report.charts = std::move(charts);
       report.charts_title = "Milling";
       report.figures = milling_figures(status, report.units);

@@ -5,14 +5,17 @@
 #include "results/output_folder.hpp"
 #include "results/si_format.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <numbers>
 
 namespace cnem::report {
 
 namespace {
 
-constexpr double rpm = std::numbers::pi / 30.0;
+constexpr double rpm = std::numbers::pi / 30.0, infinite = std::numeric_limits<double>::infinity();
 
 } // namespace
 
@@ -46,6 +49,49 @@ std::optional<Chart> stability_lobes(const std::filesystem::path& folder, const 
                             .x = {x - reach, x, x + reach, x, x - reach},
                             .y = {*depth, *depth + height, *depth, *depth - height, *depth},
                             .colour = 2});
+  }
+  return chart;
+}
+
+std::optional<Chart> stability_along(const std::filesystem::path& folder, const results::RunStatus& status) {
+  const std::filesystem::path path = folder / results::files::stability_places;
+  const auto at = status.metric("stability.speed");
+  if (!std::filesystem::exists(path) || !at) return std::nullopt;
+  const results::HistoryTable table = results::read_history(path);
+  std::size_t near = 1, best = 1;
+  double nearest = infinite, most = -infinite;
+  for (std::size_t k = 1; k < table.column.size(); ++k) {
+    const double apart = std::abs(std::stod(table.names[k]) * rpm - *at);
+    if (apart < nearest) {
+      nearest = apart;
+      near = k;
+    }
+    double least = infinite;
+    for (const double limit : table.column[k])
+      if (std::isfinite(limit)) least = std::min(least, limit);
+    if (least > most) {
+      most = least;
+      best = k;
+    }
+  }
+  Chart chart{
+      .title = "Limits along the path",
+      .x_label = "place of the cutter",
+      .x_unit = "m",
+      .y_label = "axial depth",
+      .y_unit = "m",
+      .series = {},
+      .note =
+          "By Floquet's multipliers of the modes as the cutter meets them there. Gaps: beyond the chart."};
+  int colour = 0;
+  for (const std::size_t k : {near, best}) {
+    if (colour > 0 && k == near) break;
+    std::string name = results::split_column_name(table.names[k]).name;
+    std::replace(name.begin(), name.end(), '_', ' ');
+    chart.series.push_back({.label = name + (k == near ? "" : ", which bears most all along"),
+                            .x = table.column[0],
+                            .y = table.column[k],
+                            .colour = colour++});
   }
   return chart;
 }

@@ -14,6 +14,10 @@ namespace cnem::report {
 /// IoError.
 std::optional<Chart> stability_lobes(const std::filesystem::path& folder, const results::RunStatus& status);
 
+/// Limits along the path from stability_places.csv: at the speed of the case, and at the one of the chart
+/// that bears most all along; none where the file is not there. Throws IoError.
+std::optional<Chart> stability_along(const std::filesystem::path& folder, const results::RunStatus& status);
+
 /// The numbers to see first; none of a run that is no stability analysis.
 std::vector<Figure> stability_figures(const results::RunStatus& status, const results::ShownUnits& units);
 

@@ -25,10 +25,13 @@ inline constexpr const char* cutting_folder = "cutting";     ///< tables of a cu
 inline constexpr const char* experiment = "experiment.json"; ///< computed forces beside measured ones
 inline constexpr const char* stability = "stability.csv";    ///< limits of a milling cut over speeds
 inline constexpr const char* stability_chart = "stability_chart.csv"; ///< spectral radii over speed and depth
-inline constexpr const char* stability_picture = "stability.svg";     ///< the limits
-inline constexpr const char* modes = "modes.csv";                     ///< of parts and shafts
-inline constexpr const char* mode_shapes = "modes.vtk";               ///< of a part
-inline constexpr const char* machined_surface = "surface.csv";        ///< of a milling cut
+inline constexpr const char* stability_places = "stability_places.csv"; ///< limits over speed and place
+inline constexpr const char* stability_picture = "stability.svg";       ///< the limits
+inline constexpr const char* modes = "modes.csv";                       ///< of parts and shafts
+inline constexpr const char* mode_shapes = "modes.vtk";                 ///< of a part
+inline constexpr const char* machined_surface = "surface.csv";          ///< of a milling cut
+inline constexpr const char* machined_surface_grid = "surface.vtk";     ///< the same in space
+inline constexpr const char* spectra = "spectra.csv"; ///< of forces and vibrations of a milling cut
 inline constexpr const char* status = "status.json";
 inline constexpr const char* report = "report.html";
 } // namespace files

@@ -5,14 +5,16 @@
 #include "core/index.hpp"
 #include "core/machine/isa.hpp"
 #include "input/case_machining.hpp"
+#include "report/picture_album.hpp"
+#include "report/surface_map.hpp"
 #include "results/checkpoint_folder.hpp"
+#include "results/file_queue.hpp"
 #include "results/output_folder.hpp"
 #include "results/si_format.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <numeric>
 
 namespace cnem::app {
 
@@ -20,13 +22,28 @@ namespace {
 
 using results::si_format;
 
-const std::vector<std::string> columns{"time[s]",      "angle[rad]",  "Fx[N]",    "Fy[N]",
-                                       "Fz[N]",        "torque[N m]", "power[W]", "thickest[m]",
-                                       "removed[m^3]", "x[m]",        "y[m]",     "z[m]"};
-
-double mean(const std::vector<double>& list) {
-  return std::accumulate(list.begin(), list.end(), 0.0) / static_cast<double>(list.size());
-}
+const std::vector<std::string> columns{"time[s]",
+                                       "angle[rad]",
+                                       "Fx[N]",
+                                       "Fy[N]",
+                                       "Fz[N]",
+                                       "torque[N m]",
+                                       "power[W]",
+                                       "thickest[m]",
+                                       "removed[m^3]",
+                                       "x[m]",
+                                       "y[m]",
+                                       "z[m]",
+                                       "axis_x[m]",
+                                       "axis_y[m]",
+                                       "energy.spindle[J]",
+                                       "energy.feed[J]",
+                                       "energy.cutting[J]",
+                                       "energy.damping[J]",
+                                       "energy.part[J]",
+                                       "energy.kinetic[J]",
+                                       "energy.elastic[J]",
+                                       "energy.residual[J]"};
 
 machining::ProcessSettings settings_of(const input::MachiningCase& milling) {
   return {.spindle = milling.speed,
@@ -36,11 +53,48 @@ machining::ProcessSettings settings_of(const input::MachiningCase& milling) {
           .start = milling.start,
           .pitch = milling.dexels.pitch,
           .layers = milling.dexels.layers,
-          .steps = milling.dexels.steps};
+          .steps = milling.dexels.steps,
+          .passes = milling.passes,
+          .blank = milling.blank,
+          .drive = milling.drive};
 }
 
 double step_of(const input::MachiningCase& milling) { // s
   return machining::full_turn / milling.speed / milling.dexels.steps;
+}
+
+/// A row a frequency, up to some harmonics of the teeth and beyond all modes; empty for too short a run.
+std::string spectra_file(const machining::CutVibration& vibration, const input::Case& input,
+                         const std::vector<input::NamedMode>& modes) {
+  using machining::CutVibration;
+  const input::MachiningCase& milling = *input.machining;
+  std::vector<machining::Spectrum> spectra;
+  for (std::size_t k = 0; k < (modes.empty() ? 3 : CutVibration::signals); ++k)
+    if (auto spectrum = vibration.spectrum(static_cast<CutVibration::Signal>(k), milling.speed))
+      spectra.push_back(std::move(*spectrum));
+  if (spectra.empty()) return {};
+  constexpr double harmonics = 10.0, beyond = 3.0;
+  const double turning = milling.speed / machining::full_turn,
+               teeth = turning * static_cast<double>(milling.cut.cutter.teeth());
+  double last = harmonics * teeth;
+  for (const input::NamedMode& mode : modes) last = std::max(last, beyond * mode.frequency);
+  std::string text = "frequency[Hz],harmonic,Fx[N],Fy[N],Fz[N]";
+  if (!modes.empty()) text += ",x[m],y[m],z[m]";
+  text += '\n';
+  const auto on = [&](double frequency, double base) {
+    return std::abs(frequency / base - std::round(frequency / base)) * base < 0.5 * spectra[0].step;
+  };
+  for (std::size_t k = 0; k < spectra[0].amplitude.size() && spectra[0].frequency(k) <= last; ++k) {
+    const double frequency = spectra[0].frequency(k);
+    text += fmt::format("{:.9g},{}", frequency,
+                        k == 0                   ? 0
+                        : on(frequency, teeth)   ? 2
+                        : on(frequency, turning) ? 1
+                                                 : 0);
+    for (const machining::Spectrum& spectrum : spectra) text += fmt::format(",{:.6g}", spectrum.amplitude[k]);
+    text += '\n';
+  }
+  return text;
 }
 
 } // namespace
@@ -76,7 +130,8 @@ MillingRun::MillingRun(const input::Case& input, const RunOptions& options, RunO
     : MachiningSession(input, options, observer, goes_on),
       process_(input.machining->cut, modes_of_process(), settings_of(*input.machining),
                flexible_part(input, settings_of(*input.machining), step_of(*input.machining))),
-      checkpoints_(input.output.checkpoint) {
+      checkpoints_(input.output.checkpoint),
+      vibration_(input.machining->cut.cutter, input.machining->dexels.steps) {
   if (process_.part()) first_frequency_ = process_.part()->frequency();
   observer_.begins();
 }
@@ -84,6 +139,7 @@ MillingRun::MillingRun(const input::Case& input, const RunOptions& options, RunO
 void MillingRun::archive(Archive& archive) {
   process_.archive(archive);
   steady_.archive(archive);
+  vibration_.archive(archive);
 }
 
 void MillingRun::write_checkpoint() {
@@ -112,13 +168,12 @@ std::filesystem::path MillingRun::history_file() const {
 }
 
 bool MillingRun::solve() {
-  const input::MachiningCase& milling = *input_.machining;
   if (!history_.begun()) history_.start(history_file(), columns);
-  const double dt = step_of(milling);
+  const machining::ToolMotion& motion = process_.motion();
   // Whole turns before the end: what counts is steady there, as far as the path lets it.
-  const double fed = process_.duration() - milling.dwell * dt * milling.dexels.steps;
-  const double turns = std::floor(fed / (dt * milling.dexels.steps));
-  const double window = std::max(1.0, std::floor(0.25 * turns)) * milling.dexels.steps * dt;
+  constexpr double quarter = 0.25, half = 0.5, most_turns = 128.0;
+  const double fed = motion.fed(), steady = last_turns(quarter, infinite),
+               heard = last_turns(half, most_turns);
   while (!process_.at_end()) {
     const Request request = observer_.request();
     const bool stopped = request.kind == Request::Kind::stop;
@@ -133,8 +188,12 @@ bool MillingRun::solve() {
       return true;
     }
     if (request.kind == Request::Kind::pause) return false;
+    const double dt = motion.dt(process_.steps()), at = static_cast<double>(process_.steps()) + 0.5;
+    const Vec2 axis = process_.axis();
     const machining::ProcessStep step = advance();
-    if (step.time > fed - window && step.time < fed) steady_.add(step, dt);
+    if (at > fed - steady && at < fed) steady_.add(step, dt);
+    if (at > fed - heard && at < fed) vibration_.add(step.force, step.displacement);
+    const machining::MillingLedger& ledger = process_.ledger();
     const std::array row{step.time,
                          step.angle,
                          step.force.x(),
@@ -146,15 +205,25 @@ bool MillingRun::solve() {
                          step.removed,
                          step.displacement.x(),
                          step.displacement.y(),
-                         step.displacement.z()};
+                         step.displacement.z(),
+                         axis.x(),
+                         axis.y(),
+                         ledger.spindle,
+                         ledger.feed,
+                         ledger.cutting,
+                         ledger.damping,
+                         ledger.part,
+                         ledger.kinetic,
+                         ledger.elastic,
+                         ledger.residual()};
     history_.write(row);
     ++status_.steps;
     observer_.progress(
-        {.time = process_.time(), .end = process_.duration(), .step = process_.steps(), .dt = dt});
+        {.time = process_.time(), .end = motion.duration(), .step = process_.steps(), .dt = dt});
   }
   observer_.steps_end();
   status_.time = process_.time();
-  measure_surface();
+  surface_.emplace(process_, *input_.machining);
   judge();
   return true;
 }
@@ -170,81 +239,25 @@ machining::ProcessStep MillingRun::advance() {
   }
 }
 
-void MillingRun::measure_surface() {
-  const double turn = process_.feed_of_turn();
-  const bool outside = input_.machining->start == machining::ProcessSettings::Start::outside;
-  // Teeth have passed there: from where the first turns have been to where the last one is.
-  const double from = process_.start() +
-                      std::max(2.0 * turn, outside ? 0.0 : 0.5 * (process_.axis() - process_.start())),
-               to = process_.axis() - turn, pitch = input_.machining->dexels.pitch;
-  for (double x = std::max(from, 0.0); x <= to; x += pitch) place_.push_back(x);
-  for (std::size_t k = 0; k < process_.layers().size(); ++k) {
-    if (!process_.cuts(k)) continue;
-    cut_layer_.push_back(k);
-    left_.emplace_back();
-    for (const double x : place_) left_.back().push_back(left_at(k, x));
-  }
+double MillingRun::last_turns(double share, double most) const {
+  const machining::ToolMotion& motion = process_.motion();
+  const double steps = input_.machining->dexels.steps;
+  const double turns = std::floor((motion.fed() - static_cast<double>(motion.passes().back().begin)) / steps);
+  return std::max(1.0, std::min(most, std::floor(share * turns))) * steps;
 }
 
-double MillingRun::left_at(std::size_t layer, double x) const {
-  if (const auto left = process_.left_at(layer, x)) return *left;
-  throw DivergenceError(
-      fmt::format("nothing is left of the workpiece at {} along the path and {} over the tip: the "
-                  "cutter has gone through it, expected vibrations that are small beside the cut",
-                  si_format(x, "m"), si_format(process_.height(layer), "m")),
-      -1, "displacement");
-}
-
-MillingRun::Texture MillingRun::texture(std::size_t layer) const {
-  // Tips of scallops lie between dexels.
-  constexpr int finer = 16;
-  constexpr std::size_t lengths = 5;
-  std::vector<double> height;
-  for (std::size_t i = 0; i + 1 < place_.size(); ++i)
-    for (int part = 0; part < finer; ++part)
-      height.push_back(left_at(layer, place_[i] + part * (place_[i + 1] - place_[i]) / finer));
-  if (height.empty()) return {};
-  Texture texture;
-  texture.location_error = mean(height);
-  for (const double h : height)
-    texture.Ra += std::abs(h - texture.location_error) / static_cast<double>(height.size());
-  const auto [low, high] = std::minmax_element(height.begin(), height.end());
-  texture.peak_to_valley = *high - *low;
-  for (std::size_t k = 0; k < lengths; ++k) { // ISO 4287
-    const auto from = height.begin() + static_cast<std::ptrdiff_t>(k * height.size() / lengths);
-    const auto to = height.begin() + static_cast<std::ptrdiff_t>((k + 1) * height.size() / lengths);
-    const auto [least, most] = std::minmax_element(from, to);
-    texture.Rz += (*most - *least) / lengths;
-  }
-  return texture;
-}
-
-void MillingRun::tell_surface() {
-  std::vector<Texture> layers;
-  for (const std::size_t k : cut_layer_) layers.push_back(texture(k));
-  const auto zone = [&](const std::string& name, std::size_t from, std::size_t to) {
-    Texture all;
-    for (std::size_t k = from; k < to; ++k) {
-      all.Ra += layers[k].Ra / static_cast<double>(to - from);
-      all.Rz += layers[k].Rz / static_cast<double>(to - from);
-      all.peak_to_valley = std::max(all.peak_to_valley, layers[k].peak_to_valley);
-      if (std::abs(layers[k].location_error) > std::abs(all.location_error))
-        all.location_error = layers[k].location_error;
-    }
-    for (const auto& [what, value] : {std::pair{"Ra", all.Ra},
-                                      {"Rz", all.Rz},
-                                      {"peak_to_valley", all.peak_to_valley},
-                                      {"location_error", all.location_error}})
-      status_.add_metric(fmt::format("{}.{}[m]", name, what), value);
-    return all;
-  };
-  const Texture whole = zone("milling", 0, layers.size());
-  surface_ = fmt::format("the surface is {} from peak to valley along the feed, and off its place by {}",
-                         si_format(whole.peak_to_valley, "m"), si_format(whole.location_error, "m"));
-  if (layers.size() < 3) return;
-  const std::array<std::size_t, 4> third{0, layers.size() / 3, 2 * layers.size() / 3, layers.size()};
-  for (const auto& [k, name] : {std::pair{0U, "bottom"}, {1U, "middle"}, {2U, "top"}})
-    zone(fmt::format("milling.{}", name), third[k], third[k + 1]);
+bool MillingRun::judge_vibration() {
+  const input::MachiningCase& milling = *input_.machining;
+  const double spindle = milling.speed, teeth = static_cast<double>(milling.cut.cutter.teeth());
+  if (process_.motion().steady())
+    status_.add_metric("milling.tooth_frequency[Hz]", teeth * spindle / machining::full_turn);
+  if (modes_.empty()) return false;
+  const auto growth = vibration_.growth();
+  if (!growth) return false;
+  status_.add_metric("milling.growth", growth->factor);
+  // Disturbances that neither die out nor are lost beside what the teeth force.
+  constexpr double grows = 0.999, felt = 0.1;
+  return growth->factor > grows && growth->size > felt * growth->vibration;
 }
 
 void MillingRun::judge() {
@@ -262,7 +275,14 @@ void MillingRun::judge() {
   // Across the profile, where it is the steepest.
   const double still = std::sin(milling.cut.cutter.lead(milling.axial_depth, milling.axial_depth)) *
                        machining::steady_chips(milling.cut).thickest;
-  const bool chatters = !modes_.empty() && steady.thickest > chatter * still;
+  const bool swings = judge_vibration();
+  const bool chatters = !modes_.empty() && (steady.thickest > chatter * still || swings);
+  std::string tone;
+  if (chatters && process_.motion().steady())
+    if (const auto peak = vibration_.chatter(milling.speed)) {
+      status_.add_metric("milling.chatter_frequency[Hz]", peak->frequency);
+      tone = fmt::format(" at {}", si_format(peak->frequency, "Hz"));
+    }
   status_.add_metric("milling.chip_growth", steady.thickest / still);
   status_.add_metric("milling.chatter", chatters ? 1.0 : 0.0);
   status_.flags.emplace_back("milling.chatter");
@@ -279,27 +299,47 @@ void MillingRun::judge() {
                                 "radial depth: vibrations are not small beside the cut",
                                 si_format(steady.displacement, "m")))
              .what());
-  if (place_.size() > 1 && !cut_layer_.empty()) tell_surface();
+  const std::string surface = surface_->tell(status_);
+  const machining::MillingLedger& ledger = process_.ledger();
+  status_.energy_residual = ledger.share();
+  for (const auto& [name, value] : {std::pair{"spindle", ledger.spindle},
+                                    {"feed", ledger.feed},
+                                    {"cutting", ledger.cutting},
+                                    {"damping", ledger.damping},
+                                    {"part", ledger.part},
+                                    {"kinetic", ledger.kinetic},
+                                    {"elastic", ledger.elastic}})
+    status_.add_metric(fmt::format("milling.energy.{}[J]", name), value);
   status_.reason =
       fmt::format("{}; at most {} along x, {} along y; {}",
                   modes_.empty() ? "a rigid cut"
-                  : chatters     ? fmt::format("chatter: chips {} times as thick as without vibration",
-                                               results::number_format(steady.thickest / still, 3))
-                                 : "no chatter",
-                  si_format(steady.force.x(), "N"), si_format(steady.force.y(), "N"), surface_);
+                  : chatters ? fmt::format("chatter{}: chips {} times as thick as without vibration", tone,
+                                           results::number_format(steady.thickest / still, 3))
+                             : "no chatter",
+                  si_format(steady.force.x(), "N"), si_format(steady.force.y(), "N"), surface);
 }
 
 void MillingRun::write_files() {
-  std::string text = "x[m]";
-  for (const std::size_t k : cut_layer_)
-    text += fmt::format(",left_at_{:.6g}_mm[m]", 1e3 * process_.height(k));
-  text += '\n';
-  for (std::size_t i = 0; i < place_.size(); ++i) {
-    text += fmt::format("{}", place_[i]);
-    for (const std::vector<double>& left : left_) text += fmt::format(",{:.9g}", left[i]);
-    text += '\n';
+  results::write_atomically(options_.output / results::files::machined_surface, surface_->csv());
+  results::write_atomically(options_.output / results::files::machined_surface_grid, surface_->vtk());
+  if (process_.motion().steady())
+    if (const std::string spectra = spectra_file(vibration_, input_, modes_); !spectra.empty())
+      results::write_atomically(options_.output / results::files::spectra, spectra);
+  if (const auto map = surface_->map()) {
+    results::FileQueue queue;
+    report::PictureAlbum album(options_.output);
+    const std::string text =
+        report::machined_map(*map, input_.title.empty() ? input_.name : input_.title, status_.time,
+                             results::ShownUnits::of_case(input_.resolved));
+    album.add(
+        queue, "surface",
+        {.field = "left on the surface",
+         .time = status_.time,
+         .caption = "",
+         .note = "Along the way of the cutter and over its height; positive: material is left."},
+        [text] { return text; }, text.size());
+    queue.wait();
   }
-  results::write_atomically(options_.output / results::files::machined_surface, text);
 }
 
 } // namespace cnem::app

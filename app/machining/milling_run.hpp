@@ -1,14 +1,16 @@
 #pragma once
 // One milling cut in the time domain: forces, vibrations, and the surface that is left.
+#include "app/machining/machined_surface.hpp"
 #include "app/machining/machining_session.hpp"
 #include "app/time_control.hpp"
+#include "machining/cut_vibration.hpp"
 #include "machining/milling_process.hpp"
 #include "results/checkpoint.hpp"
 
 namespace cnem::app {
 
-/// Writes history.csv (a row a step), surface.csv (what is left on the machined side along the path),
-/// status.json and the report.
+/// Writes history.csv (a row a step), surface.csv and surface.vtk (what is left on the machined side along
+/// the path) with a picture, spectra.csv, status.json and the report.
 class MillingRun final : public MachiningSession {
 public:
   MillingRun(const input::Case& input, const RunOptions& options, RunObserver& observer,
@@ -39,16 +41,10 @@ private:
   machining::ProcessStep advance();
   /// Those that are not of a part that deforms.
   std::vector<machining::Mode> modes_of_process() const;
-  void measure_surface();
-  /// m, as the process has it. Throws DivergenceError where no matter is left.
-  double left_at(std::size_t layer, double x) const;
-  /// The machined side of one layer along the path, m.
-  struct Texture {
-    double Ra = 0.0, Rz = 0.0, peak_to_valley = 0.0, location_error = 0.0;
-  };
-  Texture texture(std::size_t layer) const;
-  /// Metrics of the surface, and of thirds of the height: means of Ra and Rz, the largest of the others.
-  void tell_surface();
+  /// Growth of disturbances, spectra and frequency of chatter; whether disturbances grow.
+  bool judge_vibration();
+  /// Whole turns behind which the feed ends, of so many before it as a share, in steps.
+  double last_turns(double share, double most) const;
   void write_checkpoint();
   std::filesystem::path history_file() const; ///< empty where there is no folder
   void archive(Archive& archive);
@@ -58,10 +54,8 @@ private:
   Course steady_;                ///< of the last turns
   double first_frequency_ = 0.0; ///< Hz, of a part that deforms, at first
 
-  std::string surface_ = "the path is too short for a surface";
-  std::vector<double> place_;             ///< m along the path
-  std::vector<std::size_t> cut_layer_;    ///< those that the cutter reaches
-  std::vector<std::vector<double>> left_; ///< [layer that is cut][place] m
+  machining::CutVibration vibration_; ///< of the second half of the last pass
+  std::optional<MachinedSurface> surface_;
 };
 
 } // namespace cnem::app

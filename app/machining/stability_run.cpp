@@ -114,6 +114,21 @@ void StabilityRun::write_files() {
     radii += '\n';
   }
   results::write_atomically(options_.output / results::files::stability, limits);
+  if (places_) {
+    std::string along = "place[m]";
+    for (const double speed : places_->speed)
+      along += fmt::format(",{}_rpm[m]", results::number_format(speed / rpm, 6));
+    along += '\n';
+    for (std::size_t k = 0; k < places_->place.size(); ++k) {
+      along += fmt::format("{}", places_->place[k]);
+      for (std::size_t i = 0; i < places_->speed.size(); ++i) {
+        const auto& limit = places_->limit[k * places_->speed.size() + i];
+        along += fmt::format(",{}", limit ? limit->depth : none);
+      }
+      along += '\n';
+    }
+    results::write_atomically(options_.output / results::files::stability_places, along);
+  }
   results::write_atomically(options_.output / results::files::stability_chart, radii);
   if (const auto lobes = report::stability_lobes(options_.output, status_))
     results::write_atomically(options_.output / results::files::stability_picture,
@@ -123,10 +138,25 @@ void StabilityRun::write_files() {
 bool StabilityRun::solve() {
   const input::MachiningCase& milling = *input_.machining;
   const input::StabilityRange& range = milling.stability;
-  const std::vector<machining::Mode> modes = plain_modes();
+  std::vector<machining::Mode> modes = plain_modes();
+  const double most = deepest(input_, modes);
+  if (!range.places.empty()) {
+    constexpr int fine = 25;
+    places_ = machining::place_chart(milling.cut, modes, range.places, range.speed_from, range.speed_to,
+                                     range.speeds, most, std::min(range.depths, fine));
+    const std::size_t weakest = places_->weakest(milling.speed);
+    status_.add_metric("stability.weakest_place[m]", places_->place[weakest]);
+    std::erase_if(modes_,
+                  [&](const machining::Mode& mode) { return !mode.moves_at(places_->place[weakest]); });
+    for (machining::Mode& mode : modes_) mode = mode.at(places_->place[weakest]);
+    modes = plain_modes();
+  }
   chart_ = machining::stability_chart(milling.cut, modes, range.speed_from, range.speed_to, range.speeds,
-                                      deepest(input_, modes), range.depths);
+                                      most, range.depths);
   judge();
+  if (places_)
+    status_.reason += fmt::format("; that is where the path is weakest, at {}",
+                                  si_format(places_->place[places_->weakest(milling.speed)], "m"));
   status_.time = 0.0;
   return true;
 }

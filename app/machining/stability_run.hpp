@@ -6,7 +6,7 @@
 namespace cnem::app {
 
 /// Writes stability.csv (limits over speeds), stability_chart.csv (spectral radii), stability.svg,
-/// status.json and the report.
+/// stability_places.csv (limits along the path) where places are asked for, status.json and the report.
 class StabilityRun final : public MachiningSession {
 public:
   using MachiningSession::MachiningSession;
@@ -17,6 +17,7 @@ private:
   void judge();
 
   machining::StabilityChart chart_;
+  std::optional<machining::PlaceChart> places_;
 };
 
 } // namespace cnem::app

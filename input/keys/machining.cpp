@@ -95,17 +95,58 @@ void add_law(Keys& k) {
     k.add(std::string("cutting.forces.range.") + name, quantities, meaning).unit(dimension).example(example);
 }
 
+void add_passes(Keys& k) {
+  const std::string pass = "milling.passes[].", blank = "milling.workpiece.";
+  k.add(
+      "milling.passes", table_list,
+      "In the time domain: ways of the cutter's axis through `milling.workpiece`, one after the other; each "
+      "cuts what those before it have left. The machined side is on the left of the way in up-milling, on "
+      "its right in down-milling. `milling.start` is `outside` then, or `hole`. The surface is told of the "
+      "last one.");
+  k.add(pass + "start", vector, "Of the axis.").unit(d::length).required().example("\"-8 0 mm\"");
+  k.add(pass + "path", table_list, "Straight pieces and arcs, one behind the other.").required();
+  k.add(pass + "path[].to", vector, "End of the piece; it begins where the one before ends.")
+      .unit(d::length)
+      .required()
+      .example("\"40 0 mm\"");
+  k.add(pass + "path[].centre", vector, "Makes the piece an arc about this point.").unit(d::length);
+  k.add(pass + "path[].radius", quantity,
+        "Makes the piece an arc of this radius, the shorter of the two; for longer ones give `centre`.")
+      .unit(d::length)
+      .in(positive);
+  k.add(pass + "path[].clockwise", boolean, "Sense of travel of an arc.").fallback("false");
+  k.add("milling.workpiece", table,
+        "Of `milling.passes`: what there is before the first. Heights count from the tip of the cutter.");
+  k.add(blank + "from", vector, "A corner of a block as high as the cut is deep.")
+      .unit(d::length)
+      .example("\"0 0 mm\"");
+  k.add(blank + "to", vector, "The opposite corner.").unit(d::length).example("\"40 20 mm\"");
+  k.add(blank + "stl", table, "A closed surface from an STL file, in place of a block.");
+  k.add(blank + "stl.file", text, "In text or binary, relative to the case file.")
+      .required()
+      .example("\"blank.stl\"");
+  k.add(blank + "stl.content", text, stl_content);
+  k.add(blank + "stl.unit", quantity, "Length of the file's unit.")
+      .unit(d::length)
+      .in(positive)
+      .fallback("\"1 mm\"");
+  k.add(blank + "stl.shift", vector, "Where the file's (0, 0, 0) comes to lie.")
+      .of_space()
+      .unit(d::length)
+      .fallback("\"0 0 0 m\"")
+      .example("\"0 0 1 mm\"");
+}
+
 void add_milling(Keys& k) {
   k.add("milling", table, "The cut. The feed is along +x, the cutter turns clockwise seen from +z.")
       .required();
-  k.add("milling.speed", quantity, "Of the spindle.")
+  k.add("milling.speed", function, "Of the spindle, > 0. In the time domain it may change with time.")
       .unit(d::angular_velocity)
-      .in(positive)
       .required()
       .example("\"8000 rpm\"");
-  k.add("milling.feed", quantity, "Per tooth, the mean of a turn.")
+  k.add("milling.feed", function,
+        "Per tooth, the mean of a turn, > 0. In the time domain it may change with time.")
       .unit(d::length)
-      .in(positive)
       .required()
       .example("\"0.1 mm\"");
   k.add("milling.axial_depth", quantity, "Along the axis of the cutter.")
@@ -137,6 +178,7 @@ void add_milling(Keys& k) {
        "size; `outside`: beside the workpiece, which ends at x = 0.")
       .one_of({"inside", "hole", "outside"})
       .fallback("\"inside\"");
+  add_passes(k);
   k.add("dexels", table, "How matter and motion are resolved in the time domain.").always();
   k.add("dexels.pitch", quantity,
         "Distance of the dexels: where the surface is told. Chips do not depend on it.")
@@ -184,12 +226,18 @@ void add_modes(Keys& k) {
 
 void add_shapes(Keys& k) {
   k.add("modes.*.along", quantities,
-        "In the time domain: places of the cutter's axis along x, increasing, for `shape_along`.")
+        "In the time domain, and for `stability.places`: places of the cutter's axis along x, increasing, "
+        "for `shape_along`.")
       .unit(d::length)
       .example("\"0 50 100 mm\"");
   k.add("modes.*.shape_along", quantities,
         "How the mode changes along the path, as shares of where `stiffness` is taken.")
       .example("\"1 0.8 1\"");
+  k.add("modes.*.frequency_along", quantities,
+        "In charts of `stability.places`: how the frequency changes with `along`, as shares of `frequency`; "
+        "the "
+        "modal mass stays. A wall that gets thinner.")
+      .example("\"1 0.9 0.8\"");
   k.add("modes.*.height", quantities,
         "In the time domain: heights over the tip of the cutter, increasing, for `shape_over_height`.")
       .unit(d::length)
@@ -220,6 +268,14 @@ void add_stability(Keys& k) {
       .in(positive)
       .example("\"5 mm\"")
       .computed("six times the smallest limit of zero order, and beyond `milling.axial_depth`");
+  k.add("stability.places", quantities,
+        "Places of the cutter's axis along x, increasing, at which limits over the speed are charted, of "
+        "modes that change "
+        "along the path (`along`, `shape_along`, `frequency_along`), at up to 25 depths. The lobes are those "
+        "of the "
+        "weakest place at `milling.speed` then.")
+      .unit(d::length)
+      .example("\"0 25 50 75 100 mm\"");
   k.add("stability.depths", integer, "").in({.low = 2, .high = 2000}).fallback("100");
 }
 

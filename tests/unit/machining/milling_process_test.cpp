@@ -277,7 +277,7 @@ TEST(Milling, EntersFromBesideTheWorkpiece) {
     const ProcessStep step = process.advance();
     if (first < 0.0 && step.removed > 0.0) first = step.time;
   }
-  EXPECT_GT(process.start() + first * process.feed_of_turn() * 800.0 / full_turn, -6.1e-3);
+  EXPECT_GT(process.motion().start() + first * process.feed_of_turn() * 800.0 / full_turn, -6.1e-3);
   EXPECT_LT(process.volume(), whole);
   EXPECT_GT(first, 0.0);
 }

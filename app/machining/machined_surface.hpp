@@ -1,0 +1,44 @@
+#pragma once
+// What a milling cut leaves on the machined side.
+#include "input/case_machining.hpp"
+#include "machining/milling_process.hpp"
+#include "report/surface_map.hpp"
+#include "results/status.hpp"
+
+#include <string>
+#include <vector>
+
+namespace cnem::app {
+
+class MachinedSurface {
+public:
+  /// Between where the first turns have been and where the last one is. Throws DivergenceError where nothing
+  /// is left of a workpiece that a straight cut goes along.
+  MachinedSurface(const machining::MillingProcess& process, const input::MachiningCase& milling);
+
+  /// Metrics of the surface, and of thirds of the height: means of Ra and Rz (ISO 4287), the largest of the
+  /// others. Returns a sentence.
+  std::string tell(results::RunStatus& status) const;
+  /// A row a place along the path, a column a layer.
+  std::string csv() const;
+  /// The same as a grid in space, where the surface is, for VTK.
+  std::string vtk() const;
+  /// Over the way and the height; none of fewer than two places or layers.
+  std::optional<report::SurfaceMap> map() const;
+
+private:
+  struct Texture {
+    double Ra = 0.0, Rz = 0.0, peak_to_valley = 0.0, location_error = 0.0;
+  };
+  Texture texture(std::size_t layer) const;
+  /// m; none where there is no matter beside a pass.
+  std::optional<double> left(std::size_t layer, double way) const;
+
+  const machining::MillingProcess& process_;
+  bool up_;
+  std::vector<double> place_;             ///< m along the path: x of a straight cut, way along the last pass
+  std::vector<std::size_t> layer_;        ///< those that the cutter reaches
+  std::vector<std::vector<double>> left_; ///< [layer that is cut][place] m
+};
+
+} // namespace cnem::app

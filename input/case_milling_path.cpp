@@ -1,0 +1,131 @@
+// Reads how a cutter goes through which workpiece: passes, a blank, speed and feed over time.
+#include "input/case_machining.hpp"
+#include "input/case_parts.hpp"
+#include "input/outline.hpp"
+#include "input/triangle_file.hpp"
+
+#include "core/error.hpp"
+#include "core/geometry/box.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <utility>
+
+namespace cnem::input {
+namespace {
+
+/// The largest of a function that has to be positive at all times.
+double largest(const Setting& milling, const char* name, Diagnostics& diagnostics) {
+  const Setting& setting = *milling.find(name);
+  const std::vector<double>& values = std::get<TimeTable>(setting.value).values();
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  if (!(*least > 0.0))
+    diagnostics.add(
+        Mistake::range, setting.where, setting.path,
+        fmt::format("found {:g} {}, expected more than 0 at any time{}", *least,
+                    describe(setting.key->dimension).si_unit,
+                    values.size() > 1 ? " (a ramp begins at `from`, which is 0 without it)" : ""));
+  return std::max(*most, 1e-300);
+}
+
+std::vector<machining::ToolPath> read_passes(const Setting& milling, Diagnostics& diagnostics) {
+  std::vector<machining::ToolPath> passes;
+  for (const Setting& pass : milling.entries("passes")) try {
+      passes.emplace_back(pieces_of_path(pass));
+    } catch (const OutlineError& error) {
+      diagnostics.add(Mistake::range, pass.where, pass.path + "." + error.key, error.what());
+    }
+  return passes;
+}
+
+std::optional<machining::Blank> read_blank(Setting& table, const std::string& case_path,
+                                           Diagnostics& diagnostics) {
+  machining::Blank blank;
+  const Setting *from = table.find("from"), *to = table.find("to");
+  Setting* stl = table.find("stl");
+  if (stl ? from || to : !from || !to) {
+    diagnostics.add(stl ? Mistake::conflict : Mistake::missing_key, table.where, table.path,
+                    stl ? "found corners and triangles, expected either `from` and `to` or `stl`"
+                        : "missing, expected two opposite corners, `from` and `to`, or `stl`");
+    return std::nullopt;
+  }
+  if (!stl) {
+    blank.low = std::get<Vec2>(from->value);
+    blank.high = std::get<Vec2>(to->value);
+    if (!((blank.high - blank.low).array() > 0.0).all())
+      diagnostics.add(Mistake::range, to->where, to->path,
+                      "found a corner that is not beyond `from` along x and y, expected the opposite one");
+    return blank;
+  }
+  const std::optional<FacetSoup> soup = read_triangles(*stl, case_path, diagnostics);
+  if (!soup) return std::nullopt;
+  blank.surface = joined(*soup);
+  for (Vec3& point : blank.surface.points) point += stl->vector("shift");
+  try {
+    check_closed(blank.surface);
+  } catch (const GeometryError& error) {
+    diagnostics.add(Mistake::geometry, stl->where, stl->find("file")->path, error.what());
+    return std::nullopt;
+  }
+  const Box<3> box = box_of<3>(blank.surface.points);
+  blank.low = box.low.head<2>();
+  blank.high = box.high.head<2>();
+  return blank;
+}
+
+} // namespace
+
+void read_drive(const Setting& milling, MachiningCase& read, Analysis::Type type, Diagnostics& diagnostics) {
+  read.speed = largest(milling, "speed", diagnostics);
+  read.cut.feed = largest(milling, "feed", diagnostics);
+  const auto &speed = milling.get<TimeTable>("speed"), &feed = milling.get<TimeTable>("feed");
+  if (speed.values().size() == 1 && feed.values().size() == 1) return;
+  read.drive = {speed, feed};
+  const Setting& given = *milling.find(speed.values().size() > 1 ? "speed" : "feed");
+  if (type == Analysis::Type::stability)
+    diagnostics.add(Mistake::conflict, given.where, given.path,
+                    "found a function of time, expected a constant: lobes are those of a steady cut; "
+                    "analysis.type = \"milling\" takes any");
+}
+
+void read_path(Setting& root, MachiningCase& read, const std::string& case_path, Diagnostics& diagnostics) {
+  Setting& milling = *root.find("milling");
+  Setting* workpiece = milling.find("workpiece");
+  const Setting* passes = milling.find("passes");
+  if (!workpiece && !passes) return;
+  if (!workpiece || !passes) {
+    diagnostics.add(Mistake::missing_key, workpiece ? workpiece->where : passes->where,
+                    milling.path + (workpiece ? ".passes" : ".workpiece"),
+                    workpiece ? "missing, expected ways of the axis through the workpiece, "
+                                "[[milling.passes]] with start and path"
+                              : "missing, expected what the passes go through, such as { from = \"0 0 mm\", "
+                                "to = \"40 20 mm\" }");
+    return;
+  }
+  const Setting *length = milling.find("length"), *start = milling.find("start");
+  for (const Setting* other : {length, start})
+    if (other && other->given && (other == length || read.start == machining::ProcessSettings::Start::inside))
+      diagnostics.add(Mistake::conflict, other->where, other->path,
+                      other == length
+                          ? "found a length and milling.passes, expected one of them"
+                          : "found \"inside\", expected \"outside\" or \"hole\": passes begin beside "
+                            "the workpiece or in a hole");
+  if (read.start == machining::ProcessSettings::Start::inside)
+    read.start = machining::ProcessSettings::Start::outside;
+  read.blank = read_blank(*workpiece, case_path, diagnostics);
+  read.passes = read_passes(milling, diagnostics);
+  if (!read.blank || read.passes.empty()) return;
+  read.length = 0.0;
+  for (const machining::ToolPath& pass : read.passes) read.length += pass.length();
+  constexpr double most_cells = 2e8, degrees = 60.0;
+  const Vec2 size = read.blank->high - read.blank->low;
+  const double cell = std::max(read.dexels.pitch, read.cut.cutter.radius() / degrees);
+  if (const double cells = size.x() / cell * (size.y() / cell) * read.dexels.layers; cells > most_cells)
+    diagnostics.add(
+        Mistake::range, workpiece->where, workpiece->path,
+        fmt::format("holds {:.3g} cells of dexels, expected at most {:g}: a smaller workpiece, fewer "
+                    "dexels.layers or a larger dexels.pitch",
+                    cells, most_cells));
+}
+
+} // namespace cnem::input

@@ -1,0 +1,134 @@
+// What a cutter finds at first, and what it leaves.
+#include "core/error.hpp"
+#include "machining/milling_process.hpp"
+
+#include <cassert>
+#include <fmt/format.h>
+
+namespace cnem::machining {
+
+namespace {
+
+/// How far beyond the cutter matter is looked at, m.
+double beyond(const Cutter& cutter) { return cutter.run_out + 0.25 * cutter.radius(); }
+
+/// m, x of the axis at first, of a cut without passes.
+double start_of(const Cutter& cutter, ProcessSettings::Start start) {
+  return start == ProcessSettings::Start::outside ? -cutter.radius() - beyond(cutter) : 0.0;
+}
+
+} // namespace
+
+Workpiece workpiece_of(const MillingCut& cut, const ProcessSettings& settings) {
+  using enum ProcessSettings::Start;
+  if (settings.blank)
+    return {{settings.blank->low.x(), settings.blank->low.y(), 0.0},
+            {settings.blank->high.x(), settings.blank->high.y(), settings.axial_depth}};
+  const Cutter& cutter = cut.cutter;
+  const double r = cutter.radius(), beside = beyond(cutter), depth = cut.engagement.radial_depth;
+  const bool up = cut.engagement.side == Engagement::Side::up, slot = depth >= cutter.diameter;
+  // Matter on the side where the teeth cut: its free surface is `depth` inside of where they reach.
+  return {{settings.start == outside ? 0.0
+           : settings.start == hole  ? -r - beside
+                                     : -0.25 * r,
+           slot || !up ? -r - beside : r - depth, 0.0},
+          {start_of(cutter, settings.start) + settings.length + r + beside, slot || up ? r + beside : depth - r,
+           settings.axial_depth}};
+}
+
+ToolMotion motion_of(const MillingCut& cut, const ProcessSettings& settings) {
+  const double feed_speed = cut.feed * static_cast<double>(cut.cutter.teeth()) * settings.spindle / full_turn;
+  if (!settings.passes.empty())
+    return {settings.spindle, feed_speed,     settings.steps,    settings.passes,
+            settings.dwell,   settings.drive, cut.cutter.teeth()};
+  const double start = start_of(cut.cutter, settings.start);
+  if (settings.drive)
+    return {settings.spindle, feed_speed,     settings.steps,  start,
+            settings.length,  settings.dwell, *settings.drive, cut.cutter.teeth()};
+  return {settings.spindle, feed_speed, settings.steps, start, settings.length, settings.dwell};
+}
+
+void MillingProcess::take_blank() {
+  using enum ProcessSettings::Start;
+  // Cells of about a degree of the cutter are the fastest, measured; what is taken does not depend on them.
+  constexpr double degrees = 60.0;
+  const Vec2 pitch = Vec2::Constant(std::max(settings_.pitch, cut_.cutter.radius() / degrees));
+  if (settings_.blank) {
+    const Blank& blank = *settings_.blank;
+    for (std::size_t k = 0; k < edges_.layers(); ++k) {
+      if (blank.surface.triangles.empty())
+        layer_.push_back(k > 0 ? layer_.back() : DexelLayer(blank.low, blank.high, pitch));
+      else
+        layer_.emplace_back(blank.low, blank.high, pitch, section_pieces(blank.surface, height(k)));
+    }
+    block_ = volume();
+    return;
+  }
+  const Workpiece block = workpiece();
+  const Vec2 low = block.low.head<2>(), high = block.high.head<2>();
+  const DexelLayer whole(low, high, pitch);
+  block_ = whole.area() * settings_.axial_depth;
+  for (std::size_t k = 0; k < edges_.layers();
+       ++k) { // what earlier turns have left: the disc, and its way there
+    const double radius = edges_.radius(k);
+    if (k > 0 && radius == edges_.radius(k - 1)) {
+      layer_.push_back(layer_.back());
+      continue;
+    }
+    layer_.push_back(whole);
+    if (settings_.start == hole) layer_[k].erase_disc(Vec2::Zero(), radius);
+    if (settings_.start != inside) continue;
+    layer_[k].erase_disc(Vec2(-feed_of_turn(), 0.0), radius);
+    layer_[k].erase_box(Vec2(low.x(), -radius), Vec2(-feed_of_turn(), radius));
+  }
+}
+
+void MillingProcess::begin_pass(std::size_t pass) {
+  // On its way there, in the air, what vibrates comes to rest.
+  ledger_.damping += ledger_.kinetic + ledger_.elastic;
+  state_.setZero();
+  shift_.assign(layer_.size(), Vec3::Zero());
+  force_ = shift_;
+  const Vec2 at = axis_at(static_cast<double>(step_));
+  for (std::size_t k = 0; k < layer_.size(); ++k) {
+    const double radius = edges_.radius(k);
+    DexelLayer without = layer_[k];
+    const double there = without.erase_disc(at, radius);
+    constexpr double touches = 1e-6; // of the area of the cutter
+    if (settings_.start == ProcessSettings::Start::hole)
+      layer_[k] = std::move(without);
+    else if (there > touches * radius * radius)
+      throw DivergenceError(
+          fmt::format("pass {} begins in matter: {:.4g} mm² of it lie within the cutter at ({:.6g}, {:.6g}) "
+                      "mm, {:.4g} "
+                      "mm over the tip, expected a start beside the workpiece, or milling.start = \"hole\"",
+                      pass + 1, 1e6 * there, 1e3 * at.x(), 1e3 * at.y(), 1e3 * height(k)),
+          -1, "displacement");
+  }
+}
+
+double MillingProcess::volume() const {
+  double sum = 0.0;
+  for (const DexelLayer& layer : layer_) sum += layer.area();
+  return sum * edges_.thickness();
+}
+
+std::optional<double> MillingProcess::left_at(std::size_t layer, double x) const {
+  const std::vector<Interval> matter = layer_[layer].matter(1, x);
+  if (matter.empty()) return std::nullopt;
+  const bool up = cut_.engagement.side == Engagement::Side::up;
+  return up ? edges_.radius(layer) - matter.back().low : matter.front().high + edges_.radius(layer);
+}
+
+std::optional<double> MillingProcess::left_beside(std::size_t layer, double way) const {
+  assert(motion_.last_path());
+  const auto [at, along] = motion_.last_path()->at(way);
+  const bool up = cut_.engagement.side == Engagement::Side::up;
+  const double r = edges_.radius(layer);
+  const std::vector<Interval> matter = layer_[layer].matter(at, up ? left_normal(along) : right_normal(along),
+                                                            cut_.cutter.radius() + beyond(cut_.cutter));
+  if (matter.empty()) return std::nullopt;
+  return r - matter.back().low;
+}
+
+} // namespace cnem::machining

@@ -1,0 +1,45 @@
+#pragma once
+// Energies of a milling cut in the time domain (paper 004, section 3.2: the work of the loads of Box 1).
+#include "core/fields/archive.hpp"
+#include "machining/mode.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace cnem::machining {
+
+/// What drives have put in since the begin of a run, where it went, and what modes hold now. All J.
+struct MillingLedger {
+  double spindle = 0.0; ///< by the torque of the spindle
+  double feed = 0.0;    ///< by the drive of the feed, against the forces on the cutter
+  double cutting = 0.0; ///< of edges along their own ways relative to the part: into chips and surface
+  double damping = 0.0; ///< lost in modes
+  double part = 0.0;    ///< taken by a part that deforms: into its motion and its damping
+  double kinetic = 0.0, elastic = 0.0; ///< of modes, at present
+
+  /// What goes in less what is found.
+  double residual() const { return spindle + feed - cutting - damping - part - kinetic - elastic; }
+  /// The same as a share of what has gone through. Elements of edges are rigid in a step: it is of the order
+  /// of the square of the angle of one.
+  double share() const {
+    const double through = std::max({std::abs(spindle), std::abs(cutting), kinetic + elastic});
+    return through > 0.0 ? std::abs(residual()) / through : 0.0;
+  }
+  void archive(Archive& archive) {
+    for (const auto& [name, value] : {std::tuple{"spindle", &spindle},
+                                      {"feed", &feed},
+                                      {"cutting", &cutting},
+                                      {"damping", &damping},
+                                      {"part", &part},
+                                      {"kinetic", &kinetic},
+                                      {"elastic", &elastic}})
+      archive.number(std::string("milling/ledger/") + name, "J", *value);
+  }
+};
+
+/// zᵀ D z is what a free motion that begins with (q, v/ω) = z loses to damping in a time, s: the integral of
+/// c q̇², by Gauss points along it. J/m²
+Mat2 damping_loss(const Mode& mode, double time);
+
+} // namespace cnem::machining
