@@ -232,14 +232,14 @@ void read_machining(Setting& root, Case& result, Diagnostics& diagnostics) {
         "missing, expected a mode of tool or part, [modes.NAME], or a [part]: nothing else can chatter");
   const double turn = read.cut.feed * static_cast<double>(read.cut.cutter.teeth());
   constexpr double turns = 12.0, share = 0.1, lag = std::numbers::pi / 180.0, corner = 0.05;
-  root.set_default("milling.length", turns * turn);
+  if (!milling.find("passes")) root.set_default("milling.length", turns * turn);
   root.set_default("dexels.pitch", share * read.cut.feed);
   const double rounded = std::min(read.cut.cutter.corner, read.axial_depth);
   const double layers = std::ceil(std::max(std::abs(read.cut.cutter.lag(read.axial_depth)) / lag,
                                            rounded > 0.0 ? read.axial_depth / (corner * rounded) : 0.0) -
                                   1e-9);
   root.set_default("dexels.layers", static_cast<std::int64_t>(std::clamp(layers, 1.0, 2000.0)));
-  read.length = root.get<double>("milling.length");
+  read.length = root.maybe<double>("milling.length").value_or(0.0);
   read.dwell = root.get<double>("milling.dwell");
   read.start = root.choice<machining::ProcessSettings::Start>("milling.start");
   read.dexels = {root.get<double>("dexels.pitch"), static_cast<int>(root.get<std::int64_t>("dexels.layers")),

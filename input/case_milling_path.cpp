@@ -102,16 +102,19 @@ void read_path(Setting& root, MachiningCase& read, const std::string& case_path,
                                 "to = \"40 20 mm\" }");
     return;
   }
-  const Setting *length = milling.find("length"), *start = milling.find("start");
-  for (const Setting* other : {length, start})
+  const Setting* length = milling.find("length");
+  Setting* start = milling.find("start");
+  for (const Setting* other : {length, static_cast<const Setting*>(start)})
     if (other && other->given && (other == length || read.start == machining::ProcessSettings::Start::inside))
       diagnostics.add(Mistake::conflict, other->where, other->path,
                       other == length
                           ? "found a length and milling.passes, expected one of them"
                           : "found \"inside\", expected \"outside\" or \"hole\": passes begin beside "
                             "the workpiece or in a hole");
-  if (read.start == machining::ProcessSettings::Start::inside)
+  if (read.start == machining::ProcessSettings::Start::inside) { // its default
     read.start = machining::ProcessSettings::Start::outside;
+    start->value = std::string("outside");
+  }
   read.blank = read_blank(*workpiece, case_path, diagnostics);
   read.passes = read_passes(milling, diagnostics);
   if (!read.blank || read.passes.empty()) return;

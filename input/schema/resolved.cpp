@@ -76,13 +76,25 @@ std::string assignment(const Setting& setting) {
   return fmt::format("{} = {}", setting.name, std::visit(ValueWriter(*setting.key), setting.value));
 }
 
+/// Lists of tables within them stand in one line.
+std::string inline_table(const Setting& table) {
+  std::string parts;
+  for (const Setting& member : table.members) {
+    std::string part;
+    if (member.key->type == Type::table_list) {
+      for (const Setting& element : member.members)
+        part += (part.empty() ? "" : ", ") + inline_table(element);
+      part = fmt::format("{} = [{}]", member.name, part);
+    } else
+      part = assignment(member);
+    parts += (parts.empty() ? "" : ", ") + part;
+  }
+  return fmt::format("{{ {} }}", parts);
+}
+
 std::string list_of_tables(const Setting& list) {
   std::string lines;
-  for (const Setting& element : list.members) {
-    std::string parts;
-    for (const Setting& member : element.members) parts += (parts.empty() ? "" : ", ") + assignment(member);
-    lines += fmt::format("  {{ {} }},\n", parts);
-  }
+  for (const Setting& element : list.members) lines += "  " + inline_table(element) + ",\n";
   return fmt::format("{} = [\n{}]", list.name, lines);
 }
 
