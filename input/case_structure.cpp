@@ -331,7 +331,7 @@ void read_removal(Setting& root, Analysis::Type type, StructureCase& structure, 
   if (const Setting* damping = root.find("part.damping"))
     diagnostics.add(Mistake::conflict, damping->where, damping->path,
                     "found in an analysis of removal, expected [part.rayleigh]: modes change as matter goes");
-  if (table.find("reference")) removal.reference = table.get<bool>("reference");
+  removal.reference = table.get<bool>("reference");
   if (removal.reference && structure.part->places.empty())
     diagnostics.add(Mistake::missing_key, root.find("part")->where, "part.points",
                     "missing, expected a point at which the motions are compared");

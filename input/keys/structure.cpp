@@ -249,7 +249,6 @@ void add_removal(Keys& k) {
       .fallback("100");
   k.add("removal.reference", boolean,
         "Go beside it with K̂(t) itself, to 10⁻¹⁰, and tell how far the points of the part are from there.")
-      .when("inverse", {"interpolated", "interpolated-common"})
       .fallback("false");
   k.add("removal.force", table, "A force on the part, beside those on `part.points`, which stay.");
   k.add("removal.force.at", vector, "Where it acts at first.")
