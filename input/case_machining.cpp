@@ -2,6 +2,7 @@
 #include "input/case_machining.hpp"
 #include "core/index.hpp"
 #include "input/case_parts.hpp"
+#include "input/case_structure.hpp"
 #include "input/constants.hpp"
 
 #include <algorithm>
