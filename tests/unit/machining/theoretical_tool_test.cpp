@@ -1,0 +1,49 @@
+#include "machining/structure/theoretical_tool.hpp"
+
+#include "tests/unit/machining/benchmarks.hpp"
+
+#include <gtest/gtest.h>
+
+namespace cnem::machining {
+
+TEST(TheoreticalTool, TakesWhatARigidCutterHasPassed) {
+  const PartSupport held{.axis = 1};
+  // A side cut 5 mm along x, 0.5 mm deep, through the upper cells of a block of 20 × 2 × 4 mm.
+  const Part part(
+      {.size = Vec3(20e-3, 2e-3, 4e-3), .divisions = {10, 2, 2}, .materials = {{1.0, 0.3, 1.0}}, .zones = {}},
+      PartElement::hexahedron_8, {&held, 1});
+  MillingCut cut = milling_cut(3, 600e6, 0.0, Engagement::Side::down, 0.5 / 12.0);
+  const ProcessSettings settings{.spindle = 800.0,
+                                 .axial_depth = 2e-3,
+                                 .length = 5e-3,
+                                 .start = ProcessSettings::Start::hole,
+                                 .pitch = 1e-4,
+                                 .layers = 2,
+                                 .steps = 360};
+  MillingProcess rigid(cut, {}, settings);
+  const double duration = rigid.duration(), dt = full_turn / 800.0 / 360;
+  // The machined side, at the height of the tip: y = 1.5, z = 2 mm in the part.
+  const Vec3 origin(0.0, 1.5e-3 + cut.cutter.radius(), 2e-3);
+  const TheoreticalTool tool(part, std::move(rigid), [&](const Vec3& x) { return Vec3(x - origin); },
+                             {.dt = dt, .interval = 200, .most = 0.9});
+  double before = 2.0;
+  for (const double share : {0.0, 0.3, 0.6, 1.0}) {
+    double sum = 0.0;
+    for (const double presence : tool.presence(share * duration)) sum += presence;
+    EXPECT_LT(sum, before * static_cast<double>(part.cells()));
+    before = sum / static_cast<double>(part.cells());
+  }
+  for (std::size_t c = 0; c < part.cells(); ++c) {
+    const bool outer = part.low(c).y() > 0.5e-3 && part.low(c).z() > 1e-3;
+    const double end = tool.presence(duration)[c];
+    // Half of the outer upper cells is gone where the axis has been, nothing beyond where the disc reaches.
+    if (!outer || part.low(c).x() > 5e-3 + 3e-3)
+      EXPECT_EQ(end, 1.0) << c;
+    else if (part.high(c).x() < 4.1e-3)
+      EXPECT_NEAR(end, 1.0 - 0.9 * 0.5, 1e-12) << c;
+    else
+      EXPECT_LE(end, 1.0) << c;
+  }
+}
+
+} // namespace cnem::machining
