@@ -39,8 +39,13 @@ private:
   void judge();
   /// Growth of disturbances, spectra and frequency of chatter; whether disturbances grow.
   bool judge_vibration();
-  /// Whole turns behind which the feed ends, of so many before it as a share, in steps.
-  double last_turns(double share, double most) const;
+  struct Window {
+    double from = 0.0, to = 0.0; ///< steps
+    bool holds(double at) const { return at > from && at < to; }
+  };
+  /// Whole turns that stand for the cut: the last ones, a share of all, up to where the feed ends; of passes,
+  /// which enter and leave, those in the middle half of the last one. most: turns.
+  Window steady_turns(double share, double most) const;
   void write_checkpoint();
   std::filesystem::path history_file() const; ///< empty where there is no folder
   void archive(Archive& archive);
@@ -49,7 +54,7 @@ private:
   CheckpointTimer checkpoints_;
   Course steady_; ///< of the last turns
 
-  machining::CutVibration vibration_; ///< of the second half of the last pass
+  machining::CutVibration vibration_; ///< of the turns that stand for the cut
   std::optional<MachinedSurface> surface_;
 };
 
