@@ -65,13 +65,15 @@ void add_spectra(std::vector<Chart>& charts, const std::filesystem::path& folder
   for (const auto& [title, label, unit, columns] :
        {std::tuple{"Spectrum of the forces", "amplitude", "N", std::array{"Fx", "Fy", "Fz"}},
         {"Spectrum of the vibration", "amplitude", "m", std::array{"x", "y", "z"}}}) {
-    Chart chart{.title = title,
-                .x_label = "frequency",
-                .x_unit = "Hz",
-                .y_label = label,
-                .y_unit = unit,
-                .series = {},
-                .note = "Of the second half of the last pass, without the mean."};
+    Chart chart{
+        .title = title,
+        .x_label = "frequency",
+        .x_unit = "Hz",
+        .y_label = label,
+        .y_unit = unit,
+        .series = {},
+        .note =
+            "Of the second half of the turns, of passes the middle half of the last one, without the mean."};
     double most = 0.0;
     int colour = 0;
     for (const char* name : columns) {

@@ -9,7 +9,7 @@
 
 namespace cnem::report {
 
-/// Forces, chip and vibration of the last two turns, spectra of the second half of the last pass, from
+/// Forces, chip and vibration of the last two turns, spectra of the turns that stand for the cut, from
 /// spectra.csv, with harmonics of the teeth and the frequency of chatter, energies, and what is left on the
 /// machined side, from surface.csv; none where the latter file is not there. Throws IoError.
 std::vector<Chart> milling_charts(const std::filesystem::path& folder, const results::HistoryTable& history,

@@ -170,10 +170,8 @@ std::filesystem::path MillingRun::history_file() const {
 bool MillingRun::solve() {
   if (!history_.begun()) history_.start(history_file(), columns);
   const machining::ToolMotion& motion = process_.motion();
-  // Whole turns before the end: what counts is steady there, as far as the path lets it.
   constexpr double quarter = 0.25, half = 0.5, most_turns = 128.0;
-  const double fed = motion.fed(), steady = last_turns(quarter, infinite),
-               heard = last_turns(half, most_turns);
+  const Window steady = steady_turns(quarter, infinite), heard = steady_turns(half, most_turns);
   while (!process_.at_end()) {
     const Request request = observer_.request();
     const bool stopped = request.kind == Request::Kind::stop;
@@ -191,8 +189,8 @@ bool MillingRun::solve() {
     const double dt = motion.dt(process_.steps()), at = static_cast<double>(process_.steps()) + 0.5;
     const Vec2 axis = process_.axis();
     const machining::ProcessStep step = advance();
-    if (at > fed - steady && at < fed) steady_.add(step, dt);
-    if (at > fed - heard && at < fed) vibration_.add(step.force, step.displacement);
+    if (steady.holds(at)) steady_.add(step, dt);
+    if (heard.holds(at)) vibration_.add(step.force, step.displacement);
     const machining::MillingLedger& ledger = process_.ledger();
     const std::array row{step.time,
                          step.angle,
@@ -239,11 +237,17 @@ machining::ProcessStep MillingRun::advance() {
   }
 }
 
-double MillingRun::last_turns(double share, double most) const {
+MillingRun::Window MillingRun::steady_turns(double share, double most) const {
   const machining::ToolMotion& motion = process_.motion();
-  const double steps = input_.machining->dexels.steps;
-  const double turns = std::floor((motion.fed() - static_cast<double>(motion.passes().back().begin)) / steps);
-  return std::max(1.0, std::min(most, std::floor(share * turns))) * steps;
+  const double steps = input_.machining->dexels.steps,
+               begin = static_cast<double>(motion.passes().back().begin);
+  const double turns = std::floor((motion.fed() - begin) / steps);
+  constexpr double quarter = 0.25, half = 0.5;
+  const double length =
+      std::max(1.0, std::min(most, std::floor((motion.last_path() ? half : share) * turns))) * steps;
+  const double from =
+      motion.last_path() ? begin + std::floor(quarter * turns) * steps : motion.fed() - length;
+  return {from, from + length};
 }
 
 bool MillingRun::judge_vibration() {

@@ -43,8 +43,13 @@ private:
   std::vector<machining::Mode> modes_of_process() const;
   /// Growth of disturbances, spectra and frequency of chatter; whether disturbances grow.
   bool judge_vibration();
-  /// Whole turns behind which the feed ends, of so many before it as a share, in steps.
-  double last_turns(double share, double most) const;
+  struct Window {
+    double from = 0.0, to = 0.0; ///< steps
+    bool holds(double at) const { return at > from && at < to; }
+  };
+  /// Whole turns that stand for the cut: the last ones, a share of all, up to where the feed ends; of passes,
+  /// which enter and leave, those in the middle half of the last one. most: turns.
+  Window steady_turns(double share, double most) const;
   void write_checkpoint();
   std::filesystem::path history_file() const; ///< empty where there is no folder
   void archive(Archive& archive);
@@ -54,7 +59,7 @@ private:
   Course steady_;                ///< of the last turns
   double first_frequency_ = 0.0; ///< Hz, of a part that deforms, at first
 
-  machining::CutVibration vibration_; ///< of the second half of the last pass
+  machining::CutVibration vibration_; ///< of the turns that stand for the cut
   std::optional<MachinedSurface> surface_;
 };
 
