@@ -248,10 +248,11 @@ void read_machining(Setting& root, Case& result, Diagnostics& diagnostics) {
   read_path(root, read, result.path, diagnostics);
   if (result.structure->part && result.structure->part->mapped && (!read.passes.empty() || read.drive)) {
     const Setting& mapping = *root.find("part.mapping");
-    diagnostics.add(Mistake::conflict, mapping.where, mapping.path,
-                    fmt::format("found hexahedra that follow the part, expected them without {}: they lie over a "
-                                "cut straight along x, and its motion is solved in equal steps of time",
-                                read.passes.empty() ? "speeds or feeds over time" : "milling.passes"));
+    diagnostics.add(
+        Mistake::conflict, mapping.where, mapping.path,
+        fmt::format("found hexahedra that follow the part, expected them without {}: they lie over a "
+                    "cut straight along x, and its motion is solved in equal steps of time",
+                    read.passes.empty() ? "speeds or feeds over time" : "milling.passes"));
   }
   constexpr double most_lines = 2e5;
   if (const Setting& pitch = *root.find("dexels.pitch");

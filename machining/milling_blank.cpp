@@ -32,8 +32,8 @@ Workpiece workpiece_of(const MillingCut& cut, const ProcessSettings& settings) {
            : settings.start == hole  ? -r - beside
                                      : -0.25 * r,
            slot || !up ? -r - beside : r - depth, 0.0},
-          {start_of(cutter, settings.start) + settings.length + r + beside, slot || up ? r + beside : depth - r,
-           settings.axial_depth}};
+          {start_of(cutter, settings.start) + settings.length + r + beside,
+           slot || up ? r + beside : depth - r, settings.axial_depth}};
 }
 
 ToolMotion motion_of(const MillingCut& cut, const ProcessSettings& settings) {

@@ -235,12 +235,11 @@ ProcessStep MillingProcess::advance() {
     if (iteration >= most && change < rubs) break;
     if (iteration >= most && part_) part_->check(); // what folds need not agree with anything
     if (iteration >= most)
-      throw DivergenceError(
-          fmt::format(
-              "forces and vibration of a step do not agree: the shift of the cutter still changes by {:.3g} m, "
-              "expected smaller steps (dexels.steps)",
-              change),
-          -1, "displacement");
+      throw DivergenceError(fmt::format("forces and vibration of a step do not agree: the shift of the "
+                                        "cutter still changes by {:.3g} m, "
+                                        "expected smaller steps (dexels.steps)",
+                                        change),
+                            -1, "displacement");
   }
   if (part_) part_->check();
   ProcessStep step;

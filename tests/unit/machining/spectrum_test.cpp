@@ -91,7 +91,7 @@ TEST(Spectrum, NothingIsSaidOfShortOrStillCuts) {
   EXPECT_TRUE(vibration.spectrum(CutVibration::x, spindle));
 }
 
-struct Row {
+struct FloquetRow {
   Engagement::Side side;
   double immersion, speed, limit; ///< –, rpm, m
   bool flip;
@@ -99,8 +99,9 @@ struct Row {
 
 TEST(Spectrum, ChatterOfDexelsIsThatOfFloquet) {
   using enum Engagement::Side;
-  for (const Row& row : {Row{up, 0.5, 5000.0, 0.2603e-3, false}, Row{up, 0.5, 8000.0, 0.4060e-3, false},
-                         Row{down, 0.5, 7000.0, 2.5506e-3, false}, Row{down, 0.1, 7000.0, 2.9878e-3, true}}) {
+  for (const FloquetRow& row :
+       {FloquetRow{up, 0.5, 5000.0, 0.2603e-3, false}, FloquetRow{up, 0.5, 8000.0, 0.4060e-3, false},
+        FloquetRow{down, 0.5, 7000.0, 2.5506e-3, false}, FloquetRow{down, 0.1, 7000.0, 2.9878e-3, true}}) {
     MillingCut cut = insperger(row.side, row.immersion);
     cut.feed = 1e-5;
     constexpr int steps = 720, turns = 80;

@@ -21,7 +21,7 @@ TEST(TheoreticalTool, TakesWhatARigidCutterHasPassed) {
                                  .layers = 2,
                                  .steps = 360};
   MillingProcess rigid(cut, {}, settings);
-  const double duration = rigid.duration(), dt = full_turn / 800.0 / 360;
+  const double duration = rigid.motion().duration(), dt = full_turn / 800.0 / 360;
   // The machined side, at the height of the tip: y = 1.5, z = 2 mm in the part.
   const Vec3 origin(0.0, 1.5e-3 + cut.cutter.radius(), 2e-3);
   const TheoreticalTool tool(part, std::move(rigid), [&](const Vec3& x) { return Vec3(x - origin); },
