@@ -22,7 +22,7 @@ namespace {
 
 using results::si_format;
 
-const std::vector<std::string> columns{"time[s]",
+const std::vector<std::string> history_columns{"time[s]",
                                        "angle[rad]",
                                        "Fx[N]",
                                        "Fy[N]",
@@ -158,7 +158,7 @@ void MillingRun::write_checkpoint() {
 
 void MillingRun::resume(results::CheckpointReader& checkpoint) {
   archive(checkpoint);
-  history_.resume(history_file(), columns, process_.steps());
+  history_.resume(history_file(), history_columns, process_.steps());
   status_.steps = process_.steps();
   checkpoints_.written(process_.steps(), process_.time());
 }
@@ -168,7 +168,7 @@ std::filesystem::path MillingRun::history_file() const {
 }
 
 bool MillingRun::solve() {
-  if (!history_.begun()) history_.start(history_file(), columns);
+  if (!history_.begun()) history_.start(history_file(), history_columns);
   const machining::ToolMotion& motion = process_.motion();
   constexpr double quarter = 0.25, half = 0.5, most_turns = 128.0;
   const Window steady = steady_turns(quarter, infinite), heard = steady_turns(half, most_turns);
