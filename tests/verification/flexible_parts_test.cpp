@@ -43,7 +43,7 @@ TEST(FlexibleParts, MappedWhereTheyMoveAlikeAreThatOfOnePlace) { // midway along
 
 TEST(FlexibleParts, LoseWhatARigidRunTakes) {
   const FinishedRun done =
-      finish(milling_case("thinning_wall", {"milling.length=12 mm", "part.removal.interval=300"}));
+      finish(milling_case("wall_removal", {"milling.length=12 mm", "part.removal.interval=300"}));
   // Matter goes at the free edge: the wall swings faster.
   EXPECT_GT(done.metric("milling.part.end.f1"), 1.0005 * done.metric("milling.part.begin.f1"));
   EXPECT_LT(done.metric("milling.part.end.f1"), 1.02 * done.metric("milling.part.begin.f1"));
