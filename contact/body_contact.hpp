@@ -52,8 +52,9 @@ public:
   /// between tied nodes are no surface. Empty: none is tied.
   void set_boundary(const Surface<dim>& surface, IndexedSpan<NodeIndex, const std::int32_t> group);
 
-  /// Faces that are bonded to each other: facets that the other face covers are no surface, and bonded nodes
-  /// do not meet the other face of their interface. Until the next boundary, or bonds.
+  /// Faces that are bonded to each other: nodes between facets that the other face covers meet nothing,
+  /// bonded nodes do not meet the other face of their interface, and where a bond broke, what had pressed it
+  /// stays. Until the next boundary, or bonds.
   void set_bonds(const Bonds& bonds) {
     bonds_ = bonds;
     listed_.clear();
