@@ -38,6 +38,8 @@ TEST(FlexibleParts, MappedWhereTheyMoveAlikeAreThatOfOnePlace) { // midway along
   for (const char* force : {"milling.Fx", "milling.Fy", "milling.power"})
     EXPECT_NEAR(mapped.metric(force) / point.metric(force), 1.0, 2e-3) << force;
   EXPECT_NEAR(mapped.metric("milling.location_error") / point.metric("milling.location_error"), 1.0, 0.03);
+  EXPECT_GT(mapped.of("energy.part").back(), 0.0);
+  EXPECT_LT(std::abs(mapped.of("energy.residual").back()), 1e-3 * mapped.of("energy.spindle").back());
   EXPECT_NEAR(mapped.metric("milling.part.end.f1") / mapped.metric("milling.part.begin.f1"), 1.0, 1e-12);
 }
 
