@@ -246,6 +246,17 @@ void read_machining(Setting& root, Case& result, Diagnostics& diagnostics) {
   read.dexels = {root.get<double>("dexels.pitch"), static_cast<int>(root.get<std::int64_t>("dexels.layers")),
                  static_cast<int>(root.get<std::int64_t>("dexels.steps"))};
   read_path(root, read, result.path, diagnostics);
+  if (read.drive) {
+    constexpr double most_steps = 1e8;
+    const std::vector<double>& feeds = read.drive->feed.values();
+    const double least =
+        *std::min_element(feeds.begin(), feeds.end()) * static_cast<double>(read.cut.cutter.teeth());
+    if (const double steps = (read.length / least + read.dwell) * read.dexels.steps;
+        least > 0.0 && steps > most_steps)
+      diagnostics.add(
+          Mistake::range, milling.find("feed")->where, milling.find("feed")->path,
+          fmt::format("takes up to {:.3g} steps at its least, expected at most {:g}", steps, most_steps));
+  }
   if (result.structure->part && result.structure->part->mapped && (!read.passes.empty() || read.drive)) {
     const Setting& mapping = *root.find("part.mapping");
     diagnostics.add(
@@ -274,6 +285,14 @@ void read_machining(Setting& root, Case& result, Diagnostics& diagnostics) {
       !std::is_sorted(places.begin(), places.end(), std::less_equal<>()) && places.size() > 1)
     diagnostics.add(Mistake::range, range.find("places")->where, range.find("places")->path,
                     "found places that do not increase, expected them in order along the path");
+  if (const auto& places = read.stability.places;
+      !places.empty() && !read.modes.empty() && !root.find("part") &&
+      std::none_of(places.begin(), places.end(), [&](double x) {
+        return std::any_of(read.modes.begin(), read.modes.end(),
+                           [x](const NamedMode& mode) { return mode.moves_at(x); });
+      }))
+    diagnostics.add(Mistake::range, range.find("places")->where, range.find("places")->path,
+                    "found places at none of which a mode moves, expected others: nothing can chatter there");
   if (const Setting& to = *range.find("speed_to"); read.stability.speed_to <= read.stability.speed_from)
     diagnostics.add(Mistake::range, to.where, to.path,
                     fmt::format("found {:g} rad/s, expected more than stability.speed_from = {:g} rad/s",

@@ -38,7 +38,7 @@ std::vector<machining::ToolPath> read_passes(const Setting& milling, Diagnostics
   return passes;
 }
 
-std::optional<machining::Blank> read_blank(Setting& table, const std::string& case_path,
+std::optional<machining::Blank> read_blank(Setting& table, double axial_depth, const std::string& case_path,
                                            Diagnostics& diagnostics) {
   machining::Blank blank;
   const Setting *from = table.find("from"), *to = table.find("to");
@@ -68,6 +68,12 @@ std::optional<machining::Blank> read_blank(Setting& table, const std::string& ca
     return std::nullopt;
   }
   const Box<3> box = box_of<3>(blank.surface.points);
+  if (box.high.z() <= 0.0 || box.low.z() >= axial_depth)
+    diagnostics.add(
+        Mistake::range, stl->where, stl->path + ".shift",
+        fmt::format("puts the workpiece from {:g} to {:g} m, expected part of it between 0, the tip "
+                    "of the cutter, and milling.axial_depth = {:g} m",
+                    box.low.z(), box.high.z(), axial_depth));
   blank.low = box.low.head<2>();
   blank.high = box.high.head<2>();
   return blank;
@@ -115,8 +121,10 @@ void read_path(Setting& root, MachiningCase& read, const std::string& case_path,
     read.start = machining::ProcessSettings::Start::outside;
     start->value = std::string("outside");
   }
-  read.blank = read_blank(*workpiece, case_path, diagnostics);
+  read.blank = read_blank(*workpiece, read.axial_depth, case_path, diagnostics);
   read.passes = read_passes(milling, diagnostics);
+  if (milling.entries("passes").empty())
+    diagnostics.add(Mistake::range, passes->where, passes->path, "found no pass, expected at least one");
   if (!read.blank || read.passes.empty()) return;
   read.length = 0.0;
   for (const machining::ToolPath& pass : read.passes) read.length += pass.length();

@@ -162,6 +162,12 @@ void read_mapping(const Setting& table, Analysis::Type type, PartCase& part, Dia
   constexpr double most = 200.0;
   if (const Setting* hexahedra = table.find("hexahedra"))
     part.hexahedra = whole_numbers(*hexahedra, "hexahedra", most, diagnostics);
+  constexpr double most_together = 2e4; // whose nodes answer to each other
+  if (part.hexahedra)
+    if (const auto [x, y, z] = *part.hexahedra; 1.0 * x * y * z > most_together)
+      diagnostics.add(
+          Mistake::range, table.find("hexahedra")->where, table.find("hexahedra")->path,
+          fmt::format("found {:g} hexahedra, expected at most {:g}", 1.0 * x * y * z, most_together));
 }
 
 PartCase read_part(const Setting& table, Analysis::Type type, Diagnostics& diagnostics) {

@@ -86,6 +86,7 @@ void MillingProcess::take_blank() {
 void MillingProcess::begin_pass(std::size_t pass) {
   // On its way there, in the air, what vibrates comes to rest.
   ledger_.damping += ledger_.kinetic + ledger_.elastic;
+  ledger_.kinetic = ledger_.elastic = 0.0;
   state_.setZero();
   shift_.assign(layer_.size(), Vec3::Zero());
   force_ = shift_;

@@ -142,15 +142,18 @@ EdgeLoad MillingProcess::bear(const PerLayer& shift, PerLayer& force, TakeBite&&
     const CutterPlace first = shifted(from, shift_[k]), last = shifted(to, shift[k]);
     for (std::size_t j = 0; j < edges_.teeth(); ++j) {
       Sweep sweep{edges_.rake(k, j, first, depth), edges_.rake(k, j, last, depth)};
+      double lifted = 0.0; // m, by the part, along the axis
       if (part_) {
         failure.guard(static_cast<std::ptrdiff_t>(k), [&] {
           sweep = in_material(k, j, {first, last}, depth, sweep);
         });
         const Vec2 middle = 0.5 * (sweep.from.edge + sweep.to.edge);
-        edge_[k * edges_.teeth() + j] = {middle.x(), middle.y(), height(k)};
+        const Vec3 edge(middle.x(), middle.y(), height(k));
+        lifted = part_->end().displacement(edge).z() - part_->begin().displacement(edge).z();
+        edge_[k * edges_.teeth() + j] = edge;
       }
       const Vec2 way = sweep.to.edge - sweep.from.edge;
-      way_[k * edges_.teeth() + j] = {way.x(), way.y(), last.axis.z() - first.axis.z()};
+      way_[k * edges_.teeth() + j] = {way.x(), way.y(), last.axis.z() - first.axis.z() - lifted};
       bite_[k * edges_.teeth() + j] = bite(k, sweep);
     }
   }

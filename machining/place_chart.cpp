@@ -2,6 +2,7 @@
 #include "machining/stability.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace cnem::machining {
@@ -29,12 +30,16 @@ PlaceChart place_chart(const MillingCut& cut, std::span<const Mode> modes, std::
   return chart;
 }
 
-std::size_t PlaceChart::weakest(double spindle) const {
+std::size_t PlaceChart::weakest(double spindle, std::span<const Mode> modes) const {
   const auto near = std::min_element(speed.begin(), speed.end(), [&](double a, double b) {
     return std::abs(a - spindle) < std::abs(b - spindle);
   });
   const auto column = static_cast<std::size_t>(near - speed.begin());
-  std::size_t weakest = 0;
+  const auto moves = std::find_if(place.begin(), place.end(), [&](double x) {
+    return std::any_of(modes.begin(), modes.end(), [x](const Mode& mode) { return mode.moves_at(x); });
+  });
+  assert(moves != place.end());
+  auto weakest = static_cast<std::size_t>(moves - place.begin());
   double least = infinite;
   for (std::size_t k = 0; k < place.size(); ++k)
     if (const auto& there = limit[k * speed.size() + column]; there && there->depth < least) {

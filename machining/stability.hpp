@@ -56,7 +56,7 @@ struct PlaceChart {
   std::vector<double> speed;                    ///< rad/s
   std::vector<std::optional<DepthLimit>> limit; ///< [place × speeds + speed], the first within the depths
   /// The place whose limit at the speed nearest to `spindle` is the least; the first one where none has any.
-  std::size_t weakest(double spindle) const;
+  std::size_t weakest(double spindle, std::span<const Mode> modes) const;
 };
 PlaceChart place_chart(const MillingCut& cut, std::span<const Mode> modes, std::vector<double> places,
                        double from, double to, int speeds, double deepest, int depths);

@@ -229,7 +229,7 @@ bool MillingRun::solve() {
 machining::ProcessStep MillingRun::advance() {
   try {
     return process_.advance();
-  } catch (const DivergenceError& error) { // nothing of the step has been taken yet
+  } catch (const DivergenceError& error) { // nothing has been taken of the workpiece yet
     write_checkpoint();
     throw DivergenceError(
         fmt::format("step {} at {}: {}", process_.steps(), si_format(process_.time(), "s"), error.what()),
@@ -253,8 +253,8 @@ MillingRun::Window MillingRun::steady_turns(double share, double most) const {
 bool MillingRun::judge_vibration() {
   const input::MachiningCase& milling = *input_.machining;
   const double spindle = milling.speed, teeth = static_cast<double>(milling.cut.cutter.teeth());
-  if (process_.motion().steady())
-    status_.add_metric("milling.tooth_frequency[Hz]", teeth * spindle / machining::full_turn);
+  if (!process_.motion().steady()) return false; // periods differ though nothing chatters
+  status_.add_metric("milling.tooth_frequency[Hz]", teeth * spindle / machining::full_turn);
   if (modes_.empty()) return false;
   const auto growth = vibration_.growth();
   if (!growth) return false;
@@ -280,14 +280,17 @@ void MillingRun::judge() {
   const double still = std::sin(milling.cut.cutter.lead(milling.axial_depth, milling.axial_depth)) *
                        machining::steady_chips(milling.cut).thickest;
   const bool swings = judge_vibration();
-  const bool chatters = !modes_.empty() && (steady.thickest > chatter * still || swings);
+  // The engagement of passes is that of their workpiece, not milling.radial_depth.
+  const bool comparable = milling.passes.empty();
+  const bool thick = comparable && steady.thickest > chatter * still;
+  const bool chatters = !modes_.empty() && (thick || swings);
   std::string tone;
   if (chatters && process_.motion().steady())
     if (const auto peak = vibration_.chatter(milling.speed)) {
       status_.add_metric("milling.chatter_frequency[Hz]", peak->frequency);
       tone = fmt::format(" at {}", si_format(peak->frequency, "Hz"));
     }
-  status_.add_metric("milling.chip_growth", steady.thickest / still);
+  if (comparable) status_.add_metric("milling.chip_growth", steady.thickest / still);
   status_.add_metric("milling.chatter", chatters ? 1.0 : 0.0);
   status_.flags.emplace_back("milling.chatter");
   if (!modes_.empty()) status_.add_metric("milling.displacement[m]", steady.displacement);
@@ -296,7 +299,8 @@ void MillingRun::judge() {
     status_.add_metric("milling.part.end.f1[Hz]", part->frequency());
   }
   // Chips change by more than a small part of themselves: lobes, which are of small vibrations, say no more.
-  if (constexpr double small = 0.5; steady.displacement > small * milling.cut.engagement.radial_depth)
+  if (constexpr double small = 0.5;
+      comparable && steady.displacement > small * milling.cut.engagement.radial_depth)
     warn(input_
              .error("milling.radial_depth",
                     fmt::format("the cutter moves by {} relative to the part, expected less than half of the "
@@ -317,8 +321,9 @@ void MillingRun::judge() {
   status_.reason =
       fmt::format("{}; at most {} along x, {} along y; {}",
                   modes_.empty() ? "a rigid cut"
-                  : chatters ? fmt::format("chatter{}: chips {} times as thick as without vibration", tone,
+                  : thick    ? fmt::format("chatter{}: chips {} times as thick as without vibration", tone,
                                            results::number_format(steady.thickest / still, 3))
+                  : chatters ? fmt::format("chatter{}: disturbances grow", tone)
                              : "no chatter",
                   si_format(steady.force.x(), "N"), si_format(steady.force.y(), "N"), surface);
 }

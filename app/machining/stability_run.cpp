@@ -140,23 +140,22 @@ bool StabilityRun::solve() {
   const input::StabilityRange& range = milling.stability;
   std::vector<machining::Mode> modes = plain_modes();
   const double most = deepest(input_, modes);
+  double weakest = 0.0; // m, place along the path
   if (!range.places.empty()) {
     constexpr int fine = 25;
     places_ = machining::place_chart(milling.cut, modes, range.places, range.speed_from, range.speed_to,
                                      range.speeds, most, std::min(range.depths, fine));
-    const std::size_t weakest = places_->weakest(milling.speed);
-    status_.add_metric("stability.weakest_place[m]", places_->place[weakest]);
-    std::erase_if(modes_,
-                  [&](const machining::Mode& mode) { return !mode.moves_at(places_->place[weakest]); });
-    for (machining::Mode& mode : modes_) mode = mode.at(places_->place[weakest]);
+    weakest = places_->place[places_->weakest(milling.speed, modes)];
+    status_.add_metric("stability.weakest_place[m]", weakest);
+    std::erase_if(modes_, [&](const machining::Mode& mode) { return !mode.moves_at(weakest); });
+    for (machining::Mode& mode : modes_) mode = mode.at(weakest);
     modes = plain_modes();
   }
   chart_ = machining::stability_chart(milling.cut, modes, range.speed_from, range.speed_to, range.speeds,
                                       most, range.depths);
   judge();
   if (places_)
-    status_.reason += fmt::format("; that is where the path is weakest, at {}",
-                                  si_format(places_->place[places_->weakest(milling.speed)], "m"));
+    status_.reason += fmt::format("; that is where the path is weakest, at {}", si_format(weakest, "m"));
   status_.time = 0.0;
   return true;
 }

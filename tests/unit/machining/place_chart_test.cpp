@@ -33,7 +33,7 @@ TEST(PlaceChart, LimitsAreThoseOfTheModesAtThePlace) {
   slower.stiffness *= 0.81;
   const auto limit = depth_limit(cut, std::array{slower}, spindle, 3e-5, 3e-3);
   EXPECT_NEAR(chart.limit[6]->depth, limit->depth, 1e-6 * limit->depth);
-  EXPECT_EQ(chart.weakest(spindle), 3U);
+  EXPECT_EQ(chart.weakest(spindle, modes), 3U);
 }
 
 } // namespace
