@@ -159,6 +159,7 @@ void MillingRun::write_checkpoint() {
 void MillingRun::resume(results::CheckpointReader& checkpoint) {
   archive(checkpoint);
   history_.resume(history_file(), history_columns, process_.steps());
+  report::PictureAlbum(options_.output).truncate(-1.0); // what it shows is drawn at the end
   status_.steps = process_.steps();
   checkpoints_.written(process_.steps(), process_.time());
 }

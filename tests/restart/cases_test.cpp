@@ -1,6 +1,7 @@
 // The same bits for any number of threads, and after a restart: every case in the repository, its first
 // steps, or whole runs with all threads when CNEM_WHOLE_RUNS is set.
 #include "core/machine/isa.hpp"
+#include "input/case_machining.hpp"
 #include "input/case_reader.hpp"
 #include "results/output_folder.hpp"
 #include "tests/restart/process.hpp"
@@ -48,11 +49,18 @@ std::vector<std::string> run_with_few_pictures(const fs::path& input, const fs::
   if (is_of(input, input::Analysis::Type::modes)) return words;
   if (is_of(input, input::Analysis::Type::removal))
     words.insert(words.end(), {"--set", "removal.duration=4 ms"});
-  else if (is_milling(input))
-    words.insert(words.end(),
-                 {"--set", "stability.speeds=9", "--set", "stability.depths=10", "--set",
-                  "milling.length=1.2 mm", "--set", "dexels.layers=90"}); // enough for threads to share
-  else
+  else if (is_milling(input)) {
+    const auto machining = input::read_case((input / "case.toml").string()).machining;
+    words.insert(words.end(), {"--set", "stability.speeds=9", "--set", "stability.depths=10", "--set",
+                               "dexels.layers=90"}); // enough for threads to share
+    constexpr double turns = 12.0, longest = 1.2e-3; // m
+    const double of_turn = machining->cut.feed * static_cast<double>(machining->cut.cutter.teeth());
+    if (machining->passes.empty())
+      words.insert(words.end(),
+                   {"--set", fmt::format("milling.length={} mm", 1e3 * std::min(longest, turns * of_turn))});
+    else
+      words.insert(words.end(), {"--set", "milling.feed=0.5 mm", "--set", "dexels.steps=60"});
+  } else
     words.insert(words.end(), {"--set", "output.picture_fields=[\"pressure\"]"});
   return words;
 }

@@ -21,7 +21,7 @@ std::string replaced_material(const std::string& name) {
   return replaced(small_case, "material = \"steel\"", fmt::format("material = \"{}\"", name));
 }
 
-Case read_case(const std::string& text, const Texts& overrides = {}) {
+Case read_text(const std::string& text, const Texts& overrides = {}) {
   return read_case_text(text, "case.toml", overrides);
 }
 
@@ -116,7 +116,7 @@ TEST_P(Library, has_a_positive_flow_stress_that_hardens_where_it_holds) {
 TEST_P(Library, is_taken_by_a_case_as_it_is) {
   Texts sheet; // plies flow in plane stress alone
   if (material.material.ply) sheet = {"analysis.kinematics=plane stress"};
-  const Case taken = read_case(replaced_material("lib:" + GetParam()), sheet);
+  const Case taken = read_text(replaced_material("lib:" + GetParam()), sheet);
   EXPECT_EQ(taken.domain.material, GetParam());
   const plasticity::Material& metal = taken.material(GetParam());
   EXPECT_EQ(metal.density, material.material.density);
@@ -186,18 +186,18 @@ TEST(LibraryOfMaterials, has_flax_and_pla_of_paper_001) {
 }
 
 TEST(LibraryOfMaterials, leaves_a_resolved_case_that_stands_alone) {
-  const Case taken = read_case(replaced_material("lib:304L"));
+  const Case taken = read_text(replaced_material("lib:304L"));
   EXPECT_EQ(taken.resolved.find("\"lib:304L\""), taken.resolved.find("origin = ") + 9);
   expect_parts(taken.resolved, {"material = \"304L\"", "[materials.304L.plastic]", "A = \"253000000 Pa\"",
                                 "source = [\"paper 004, section 5.4.3"});
-  const Case again = read_case(taken.resolved);
+  const Case again = read_text(taken.resolved);
   EXPECT_EQ(again.resolved.substr(again.resolved.find('\n')),
             taken.resolved.substr(taken.resolved.find('\n')));
 }
 
 TEST(LibraryOfMaterials, gives_a_base_whose_constants_a_case_changes) {
   const Case changed =
-      read_case(replaced_material("mine") +
+      read_text(replaced_material("mine") +
                 "[materials.mine]\nbase = \"lib:304L\"\nleave_out = \"damage\"\nplastic.A = \"300 MPa\"\n");
   const plasticity::Material& metal = changed.material("mine");
   EXPECT_EQ(metal.hardening->as<plasticity::JohnsonCook>().A, 300e6);
@@ -209,7 +209,7 @@ TEST(LibraryOfMaterials, gives_a_base_whose_constants_a_case_changes) {
 }
 
 TEST(LibraryOfMaterials, gives_way_to_a_law_of_the_case) {
-  const Case other = read_case(replaced_material("mine") +
+  const Case other = read_text(replaced_material("mine") +
                                "[materials.mine]\nbase = \"lib:304L\"\nleave_out = \"damage\"\n"
                                "plastic = { law = \"linear\", yield = \"1 GPa\", hardening = \"0 Pa\" }\n");
   EXPECT_EQ(other.material("mine").hardening->flow_stress(1.0, 1e4, 1000.0), 1e9);
@@ -218,21 +218,21 @@ TEST(LibraryOfMaterials, gives_way_to_a_law_of_the_case) {
 }
 
 TEST(LibraryOfMaterials, serves_regions_and_overrides) {
-  const Case parts = read_case(replaced(replaced_material("lib:304L"), "[cloud]",
+  const Case parts = read_text(replaced(replaced_material("lib:304L"), "[cloud]",
                                         "interfaces.joint.points = [\"4 0 mm\", \"4 5 mm\"]\n"
                                         "regions.a = { at = \"1 1 mm\", material = \"lib:OFHC-copper\" }\n"
                                         "regions.b = { at = \"8 1 mm\", material = \"lib:304L\" }\n[cloud]"));
   EXPECT_EQ(parts.domain.regions.at(0).material, "OFHC-copper");
   EXPECT_EQ(parts.domain.regions.at(1).material, "304L");
   EXPECT_EQ(parts.materials.size(), 3U) << "each once, and the steel of the case";
-  EXPECT_EQ(read_case(small_case, {"domain.material=lib:C45"}).domain.material, "C45");
-  EXPECT_EQ(read_case(small_case, {"materials.steel={ base = \"lib:C45\" }"}).material("steel").density,
+  EXPECT_EQ(read_text(small_case, {"domain.material=lib:C45"}).domain.material, "C45");
+  EXPECT_EQ(read_text(small_case, {"materials.steel={ base = \"lib:C45\" }"}).material("steel").density,
             7870.0);
 }
 
 TEST(LibraryOfMaterials, serves_a_case_without_materials_of_its_own) {
   const std::string text = replaced_material("lib:304L");
-  const Case bare = read_case(text.substr(0, text.find("[materials")));
+  const Case bare = read_text(text.substr(0, text.find("[materials")));
   ASSERT_EQ(bare.materials.size(), 1U);
   EXPECT_EQ(bare.materials.front().name, "304L");
   EXPECT_EQ(bare.location.at("domain.material"), "case.toml:5:1") << "where the case names it";
