@@ -10,7 +10,8 @@ namespace {
 
 /// Of the leading square block of Hessenberg coefficients; vector in the basis of Arnoldi.
 Eigenpair ritz_pair(const Eigen::MatrixXd& hessenberg, Eigen::Index m, bool with_vector) {
-  const Eigen::EigenSolver<Eigen::MatrixXd> solver(hessenberg.topLeftCorner(m, m), with_vector);
+  const Eigen::MatrixXd square = hessenberg.topLeftCorner(m, m);
+  const Eigen::EigenSolver<Eigen::MatrixXd> solver(square, with_vector);
   Eigen::Index best = 0;
   for (Eigen::Index i = 1; i < m; ++i)
     if (std::abs(solver.eigenvalues()[i]) > std::abs(solver.eigenvalues()[best])) best = i;

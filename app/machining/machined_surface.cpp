@@ -25,7 +25,8 @@ MachinedSurface::MachinedSurface(const MillingProcess& process, const input::Mac
   const double from = start + std::max(2.0 * turn, outside || path ? 0.0 : 0.5 * (end - start)),
                to = end - turn;
   for (std::size_t k = 0; k < process.layers().size(); ++k)
-    if (process.cuts(k)) layer_.push_back(k);
+    if (process.cuts(k) && (!path || process.layers()[k].area() > 0.0))
+      layer_.push_back(k); // or over the stock
   left_.resize(layer_.size());
   std::vector<double> here(layer_.size());
   for (double at = std::max(from, 0.0); at <= to; at += pitch) {

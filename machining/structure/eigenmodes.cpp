@@ -75,7 +75,8 @@ Eigenmodes lowest_modes(const SparseMatrix& stiffness, const SparseMatrix& mass,
     if (basis.cols() >= count) {
       // Lazy products: the others are divided among threads, and their sums depend on how many there are.
       const Eigen::MatrixXd projected = times_mass.transpose().lazyProduct(image);
-      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz(0.5 * (projected + projected.transpose()));
+      const Eigen::MatrixXd symmetric = 0.5 * (projected + projected.transpose());
+      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz(symmetric);
       const Eigen::VectorXd flexibility = ritz.eigenvalues().reverse().head(count); // 1/ω²
       const Eigen::MatrixXd mix = ritz.eigenvectors().rowwise().reverse().leftCols(count);
       constexpr double close = 1e-10, residual_close = 1e-7;
