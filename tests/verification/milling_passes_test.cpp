@@ -34,7 +34,7 @@ path = [{ to = "18 5 mm" }]
 
 [dexels]
 layers = 4
-steps = 120
+steps = 720
 )toml";
 
 } // namespace
