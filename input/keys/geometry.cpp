@@ -55,6 +55,28 @@ void add_drawing(Keys& k, const std::string& at, const std::string& doc, const s
 
 } // namespace
 
+void add_arc(Keys& k, const std::string& piece) {
+  k.add(piece + ".centre", vector, "Makes the piece an arc about this point.").unit(d::length);
+  k.add(piece + ".radius", quantity,
+        "Makes the piece an arc of this radius, the shorter of the two; for longer ones give `centre`.")
+      .unit(d::length)
+      .in(positive);
+  k.add(piece + ".clockwise", boolean, "Sense of travel of an arc.").fallback("false");
+}
+
+KeyDraft add_stl(Keys& k, const std::string& at, const std::string& example) {
+  k.add(at + ".file", text, "In text or binary, relative to the case file.").required().example(example);
+  k.add(at + ".content", text, stl_content);
+  k.add(at + ".unit", quantity, "Length of the file's unit.")
+      .unit(d::length)
+      .in(positive)
+      .fallback("\"1 mm\"");
+  return k.add(at + ".shift", vector, "Where the file's (0, 0, 0) comes to lie.")
+      .unit(d::length)
+      .fallback("\"0 0 0 m\"")
+      .example("\"0 0 1 mm\"");
+}
+
 void add_outline(Keys& k, const std::string& at, const std::string& rectangle_names) {
   k.add(at + ".start", vector, "First corner of a `path`.").unit(d::length).example("\"0 0 mm\"");
   k.add(at + ".path", table_list,
@@ -67,12 +89,7 @@ void add_outline(Keys& k, const std::string& at, const std::string& rectangle_na
   k.add(at + ".path[].name", text, "Name of the boundary piece; pieces may share one.")
       .example("\"bottom\"")
       .computed("the name of the curve (`outer` for the domain)");
-  k.add(at + ".path[].centre", vector, "Makes the piece an arc about this point.").unit(d::length);
-  k.add(at + ".path[].radius", quantity,
-        "Makes the piece an arc of this radius, the shorter of the two; for longer ones give `centre`.")
-      .unit(d::length)
-      .in(positive);
-  k.add(at + ".path[].clockwise", boolean, "Sense of travel of an arc.").fallback("false");
+  add_arc(k, at + ".path[]");
   k.add(at + ".path[].fillet", quantity,
         "Rounds the corner at `to`, between two straight pieces, by a tangent arc of this radius; 0 leaves "
         "it sharp.")

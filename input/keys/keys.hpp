@@ -70,6 +70,11 @@ public:
   std::vector<Key> all;
 };
 
+/// What makes a piece of a path an arc: members of the table `piece`.
+void add_arc(Keys& k, const std::string& piece);
+/// A body from a file of triangles: members of the table `at`. Returns the last one, where the file's origin
+/// is.
+KeyDraft add_stl(Keys& k, const std::string& at, const std::string& example);
 /// The closed curve of a domain, a hole or a tool: members of the table `at`.
 void add_outline(Keys& k, const std::string& at, const std::string& rectangle_names);
 /// The table of a law of friction.

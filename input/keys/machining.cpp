@@ -109,12 +109,7 @@ void add_passes(Keys& k) {
       .unit(d::length)
       .required()
       .example("\"40 0 mm\"");
-  k.add(pass + "path[].centre", vector, "Makes the piece an arc about this point.").unit(d::length);
-  k.add(pass + "path[].radius", quantity,
-        "Makes the piece an arc of this radius, the shorter of the two; for longer ones give `centre`.")
-      .unit(d::length)
-      .in(positive);
-  k.add(pass + "path[].clockwise", boolean, "Sense of travel of an arc.").fallback("false");
+  add_arc(k, pass + "path[]");
   k.add("milling.workpiece", table,
         "Of `milling.passes`: what there is before the first. Heights count from the tip of the cutter.");
   k.add(blank + "from", vector, "A corner of a block as high as the cut is deep.")
@@ -122,19 +117,7 @@ void add_passes(Keys& k) {
       .example("\"0 0 mm\"");
   k.add(blank + "to", vector, "The opposite corner.").unit(d::length).example("\"40 20 mm\"");
   k.add(blank + "stl", table, "A closed surface from an STL file, in place of a block.");
-  k.add(blank + "stl.file", text, "In text or binary, relative to the case file.")
-      .required()
-      .example("\"blank.stl\"");
-  k.add(blank + "stl.content", text, stl_content);
-  k.add(blank + "stl.unit", quantity, "Length of the file's unit.")
-      .unit(d::length)
-      .in(positive)
-      .fallback("\"1 mm\"");
-  k.add(blank + "stl.shift", vector, "Where the file's (0, 0, 0) comes to lie.")
-      .of_space()
-      .unit(d::length)
-      .fallback("\"0 0 0 m\"")
-      .example("\"0 0 1 mm\"");
+  add_stl(k, blank + "stl", "\"blank.stl\"").of_space();
 }
 
 void add_milling(Keys& k) {

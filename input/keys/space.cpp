@@ -112,18 +112,7 @@ void add_sweeps(Keys& k) {
       "stay and divide it into boundary pieces: they are called as the solid (`surface` without a name), "
       "with "
       "`-1`, `-2` and so on from the largest on where there are several.");
-  k.add("domain.stl.file", text, "In text or binary, relative to the case file.")
-      .required()
-      .example("\"part.stl\"");
-  k.add("domain.stl.content", text, stl_content);
-  k.add("domain.stl.unit", quantity, "Length of the file's unit.")
-      .unit(d::length)
-      .in(positive)
-      .fallback("\"1 mm\"");
-  k.add("domain.stl.shift", vector, "Where the file's (0, 0, 0) comes to lie.")
-      .unit(d::length)
-      .fallback("\"0 0 0 m\"")
-      .example("\"0 0 1 mm\"");
+  add_stl(k, "domain.stl", "\"part.stl\"");
   k.add("domain.stl.crease_angle", quantity, "Edges at which normals turn by more are sharp.")
       .unit(d::angle)
       .in({.low = 0.0, .high = std::numbers::pi, .low_open = true})
