@@ -19,6 +19,13 @@ namespace cnem::app {
 
 namespace {
 
+/// Throws an error that is being handled again, with the interface whose faces were left in each other.
+[[noreturn]] void refuse(const GeometryError& error, const std::string& left) {
+  if (left.empty()) throw;
+  throw GeometryError(
+      fmt::format("{}; the faces of the interface '{}' could not be set apart", error.what(), left));
+}
+
 /// Nodes at which the boundary turns by more than 30 degrees.
 IndexedVector<NodeIndex, std::int32_t> corners(const Cloud<2>& cloud) {
   constexpr double least_cosine = 0.866;
@@ -192,9 +199,7 @@ double Adaptation::renew(ExplicitSolver<2>& solver, const Follow& follow) {
   } catch (const GeometryError& error) {
     size_ = size_before;
     flow_ = flow_before;
-    if (left.empty()) throw;
-    throw GeometryError(
-        fmt::format("{}; the faces of the interface '{}' could not be set apart", error.what(), left));
+    refuse(error, left);
   }
   ++passes_;
   total_ += report;
@@ -203,7 +208,13 @@ double Adaptation::renew(ExplicitSolver<2>& solver, const Follow& follow) {
 }
 
 void Adaptation::balance(ExplicitSolver<2>& solver) {
-  solver.part_faces();
+  const std::string left = solver.part_faces();
+  try {
+    balance_parted(solver);
+  } catch (const GeometryError& error) { refuse(error, left); }
+}
+
+void Adaptation::balance_parted(ExplicitSolver<2>& solver) {
   const Promises& promises = solver.model().method->promises();
   if (!solver.model().mechanical || !promises.keep(Promise::tiling_cells)) return solver.prepare();
   const bool at_nodes = promises.keep(Promise::identity_values);

@@ -52,6 +52,8 @@ public:
   void archive(Archive& archive);
 
 private:
+  /// What balance() does once faces that overlap have been set apart.
+  void balance_parted(ExplicitSolver<2>& solver);
   void estimate_and_mark(const ExplicitSolver<2>& solver, const Cloud<2>& cloud,
                          const adapt::Structure& structure);
   /// m, [node] the spacing that marks, flow, tools and growth ask for.
