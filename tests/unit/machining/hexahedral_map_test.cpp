@@ -194,6 +194,22 @@ TEST(FlexiblePart, MovesAsAModeWhoseShapeChangesOverTheHeight) {
   expect_the_same_chips(shaped, mapped, 1e-9);
 }
 
+TEST(FlexiblePart, TakesWhatDrivesPutInBeyondTheCut) { // also where it is lifted along the axis
+  MillingCut cut = helical(Engagement::Side::down);
+  LinearLaw law{.Ktc = 767e6};
+  law.Krc = 168.8e6;
+  law.Kac = 222e6;
+  cut.law = CuttingLaw(law);
+  Mode lifting = swinging;
+  lifting.direction = Vec3(0.0, 0.6, 0.8);
+  MillingProcess process(cut, {}, few_turns(), part(cut, few_turns(), lifting, [](const Vec3& x) {
+                           return 1.0 + 0.1 * x.z() / 1e-3;
+                         }));
+  while (!process.at_end()) process.advance();
+  EXPECT_GT(process.ledger().part, 0.0);
+  EXPECT_LT(process.ledger().share(), 1e-4);
+}
+
 TEST(FlexiblePart, EndsWhereItIsNotOneToOneAnyMore) {
   const MillingCut cut = helical(Engagement::Side::down);
   Mode heavy = swinging; // goes away from the cutter, slowly, in two halves
