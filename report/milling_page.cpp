@@ -37,12 +37,6 @@ private:
   std::size_t first_ = 0;
 };
 
-std::optional<double> metric(const results::RunStatus& status, const std::string& name) {
-  for (const auto& [known, value] : status.metrics)
-    if (known == "milling." + name) return value;
-  return std::nullopt;
-}
-
 /// Lines from the axis up, at frequencies.
 ChartSeries marks(const std::vector<double>& frequency, double height, const char* label, int colour) {
   ChartSeries series{.label = label, .x = {}, .y = {}, .colour = colour, .faint = true};
@@ -85,7 +79,7 @@ void add_spectra(std::vector<Chart>& charts, const std::filesystem::path& folder
     }
     if (chart.series.empty() || !(most > 0.0)) continue;
     chart.series.push_back(marks(teeth, most, "harmonics of the teeth", 3));
-    if (const auto chatter = metric(status, "chatter_frequency"))
+    if (const auto chatter = status.metric("milling.chatter_frequency"))
       chart.series.push_back(marks({*chatter}, most, "chatter", 4));
     charts.push_back(std::move(chart));
   }
@@ -166,9 +160,9 @@ std::vector<Chart> milling_charts(const std::filesystem::path& folder, const res
 std::vector<Figure> milling_figures(const results::RunStatus& status, const results::ShownUnits& units) {
   std::vector<Figure> figures;
   const auto add = [&](const char* metric, const char* name, const char* note) {
-    for (const auto& [known, value] : status.metrics)
-      if (known == std::string("milling.") + metric)
-        figures.push_back({name, units.format(value, status.unit_of(known)), note});
+    const std::string known = std::string("milling.") + metric;
+    if (const auto value = status.metric(known))
+      figures.push_back({name, units.format(*value, status.unit_of(known)), note});
   };
   add("Fx", "Largest Fx", "along the feed, of the last turns");
   add("Fy", "Largest Fy", "across it");

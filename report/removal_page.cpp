@@ -37,7 +37,8 @@ std::vector<Chart> removal_charts(const results::HistoryTable& history) {
     else if (name.starts_with("energy."))
       add(energy, name.substr(name.find('.') + 1), c);
     else if (const std::vector<double>& u = history.column[c];
-             name.find(".u") != std::string::npos && *std::max_element(u.begin(), u.end()) > 0.0)
+             name.find(".u") != std::string::npos &&
+             std::any_of(u.begin(), u.end(), [](double value) { return value != 0.0; }))
       add(motion, name, c);
   }
   std::vector<Chart> charts;
