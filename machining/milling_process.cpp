@@ -221,6 +221,7 @@ ProcessStep MillingProcess::advance() {
   constexpr int enough = 5, most = 30;
   constexpr double close = 1e-12;                                 // m
   const double touch = 1e-6 * cut_.feed, rubs = 1e-4 * cut_.feed; // spring passes do little else
+  double unsettled = 0.0;
   for (int iteration = 0; !modes_.empty() || part_; ++iteration) {
     bear(shift, force_, [&](std::size_t k, const Sweep& sweep) { return layer_[k].ask(sweep); });
     PerLayer next = shift_of(moved(force_));
@@ -235,7 +236,10 @@ ProcessStep MillingProcess::advance() {
         change = std::max(change, (after[k] - before[k]).norm());
     }
     if (change < close || (iteration >= enough && change < touch)) break;
-    if (iteration >= most && change < rubs) break;
+    if (iteration >= most && change < rubs) {
+      unsettled = change;
+      break;
+    }
     if (iteration >= most && part_) part_->check(); // what folds need not agree with anything
     if (iteration >= most)
       throw DivergenceError(fmt::format("forces and vibration of a step do not agree: the shift of the "
@@ -248,6 +252,7 @@ ProcessStep MillingProcess::advance() {
   ProcessStep step;
   static_cast<EdgeLoad&>(step) =
       bear(shift, force_, [&](std::size_t k, const Sweep& sweep) { return layer_[k].erase(sweep); });
+  step.unsettled = unsettled;
   step.time = time() + 0.5 * dt_;
   step.angle = motion_.steady() ? settings_.spindle * step.time
                                 : place(step_).angle + 0.5 * full_turn / settings_.steps;

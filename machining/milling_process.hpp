@@ -38,6 +38,8 @@ struct ProcessStep : EdgeLoad {
   double angle = 0.0;               ///< rad, of the tip of tooth 0 there
   Vec3 displacement = Vec3::Zero(); ///< m, of the tool relative to the part, at the end, in the
                                     ///< layer where it is the largest
+  double unsettled = 0.0; ///< m, by how much the shift still changed where forces and vibration did not
+                          ///< agree for good: edges that only rub
 };
 
 /// Corners of the workpiece at first, m: x and y, and z from the tip to the depth.

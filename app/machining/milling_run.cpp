@@ -3,11 +3,9 @@
 #include "app/machining/structure_modes.hpp"
 #include "core/error.hpp"
 #include "core/index.hpp"
-#include "core/machine/isa.hpp"
 #include "input/case_machining.hpp"
 #include "report/picture_album.hpp"
 #include "report/surface_map.hpp"
-#include "results/checkpoint_folder.hpp"
 #include "results/file_queue.hpp"
 #include "results/output_folder.hpp"
 #include "results/si_format.hpp"
@@ -58,6 +56,9 @@ machining::ProcessSettings settings_of(const input::MachiningCase& milling) {
           .blank = milling.blank,
           .drive = milling.drive};
 }
+
+/// Of the turns of a run those that count, for forces and for vibration, and how many at most.
+constexpr double share_of_forces = 0.25, share_of_vibration = 0.5, most_turns = 128.0;
 
 double step_of(const input::MachiningCase& milling) { // s
   return machining::full_turn / milling.speed / milling.dexels.steps;
@@ -127,10 +128,10 @@ void MillingRun::Course::archive(Archive& archive) {
 
 MillingRun::MillingRun(const input::Case& input, const RunOptions& options, RunObserver& observer,
                        bool goes_on)
-    : MachiningSession(input, options, observer, goes_on),
+    : SteppedRun(input, options, observer, goes_on, history_columns),
       process_(input.machining->cut, modes_of_process(), settings_of(*input.machining),
                flexible_part(input, settings_of(*input.machining), step_of(*input.machining))),
-      checkpoints_(input.output.checkpoint),
+      counts_(steady_turns(share_of_forces, infinite)), heard_(steady_turns(share_of_vibration, most_turns)),
       vibration_(input.machining->cut.cutter, input.machining->dexels.steps) {
   if (process_.part()) first_frequency_ = process_.part()->frequency();
   observer_.begins();
@@ -140,94 +141,48 @@ void MillingRun::archive(Archive& archive) {
   process_.archive(archive);
   steady_.archive(archive);
   vibration_.archive(archive);
+  archive.integer("run/unsettled_steps", unsettled_steps_);
+  archive.number("run/unsettled", "m", unsettled_);
 }
 
-void MillingRun::write_checkpoint() {
-  if (!options_.output.empty()) {
-    results::flush_file(history_file()); // what the checkpoint counts on must not be lost before it
-    results::CheckpointWriter writer;
-    results::CheckpointInfo info{options_.version, std::string(isa_name(active_isa())),
-                                 input_.name,      results::hash_of_inputs(input_.resolved),
-                                 process_.steps(), process_.time()};
-    info.archive(writer);
-    archive(writer);
-    results::add_checkpoint(options_.output, writer.content(), input_.output.checkpoint.keep);
+void MillingRun::advance() {
+  const double step_dt = dt(), at = static_cast<double>(steps()) + 0.5;
+  const Vec2 axis = process_.axis();
+  const machining::ProcessStep step = made_step();
+  if (counts_.holds(at)) steady_.add(step, step_dt);
+  if (heard_.holds(at)) vibration_.add(step.force, step.displacement);
+  if (step.unsettled > 0.0) {
+    ++unsettled_steps_;
+    unsettled_ = std::max(unsettled_, step.unsettled);
   }
-  checkpoints_.written(process_.steps(), process_.time());
+  const machining::MillingLedger& ledger = process_.ledger();
+  const std::array row{step.time,
+                       step.angle,
+                       step.force.x(),
+                       step.force.y(),
+                       step.force.z(),
+                       step.torque,
+                       step.power,
+                       step.thickest,
+                       step.removed,
+                       step.displacement.x(),
+                       step.displacement.y(),
+                       step.displacement.z(),
+                       axis.x(),
+                       axis.y(),
+                       ledger.spindle,
+                       ledger.feed,
+                       ledger.cutting,
+                       ledger.damping,
+                       ledger.part,
+                       ledger.kinetic,
+                       ledger.elastic,
+                       ledger.residual()};
+  history_.write(row);
+  ++status_.steps;
 }
 
-void MillingRun::resume(results::CheckpointReader& checkpoint) {
-  archive(checkpoint);
-  history_.resume(history_file(), history_columns, process_.steps());
-  report::PictureAlbum(options_.output).truncate(-1.0); // what it shows is drawn at the end
-  status_.steps = process_.steps();
-  checkpoints_.written(process_.steps(), process_.time());
-}
-
-std::filesystem::path MillingRun::history_file() const {
-  return options_.output.empty() ? options_.output : options_.output / results::files::history;
-}
-
-bool MillingRun::solve() {
-  if (!history_.begun()) history_.start(history_file(), history_columns);
-  const machining::ToolMotion& motion = process_.motion();
-  constexpr double quarter = 0.25, half = 0.5, most_turns = 128.0;
-  const Window steady = steady_turns(quarter, infinite), heard = steady_turns(half, most_turns);
-  while (!process_.at_end()) {
-    const Request request = observer_.request();
-    const bool stopped = request.kind == Request::Kind::stop;
-    if (stopped || request.kind == Request::Kind::checkpoint ||
-        checkpoints_.due(process_.steps(), process_.time()))
-      write_checkpoint();
-    if (stopped) {
-      status_.exit = Exit::interrupted;
-      status_.time = process_.time();
-      status_.reason = fmt::format("by {} at step {}", request.by, process_.steps());
-      observer_.steps_end();
-      return true;
-    }
-    if (request.kind == Request::Kind::pause) return false;
-    const double dt = motion.dt(process_.steps()), at = static_cast<double>(process_.steps()) + 0.5;
-    const Vec2 axis = process_.axis();
-    const machining::ProcessStep step = advance();
-    if (steady.holds(at)) steady_.add(step, dt);
-    if (heard.holds(at)) vibration_.add(step.force, step.displacement);
-    const machining::MillingLedger& ledger = process_.ledger();
-    const std::array row{step.time,
-                         step.angle,
-                         step.force.x(),
-                         step.force.y(),
-                         step.force.z(),
-                         step.torque,
-                         step.power,
-                         step.thickest,
-                         step.removed,
-                         step.displacement.x(),
-                         step.displacement.y(),
-                         step.displacement.z(),
-                         axis.x(),
-                         axis.y(),
-                         ledger.spindle,
-                         ledger.feed,
-                         ledger.cutting,
-                         ledger.damping,
-                         ledger.part,
-                         ledger.kinetic,
-                         ledger.elastic,
-                         ledger.residual()};
-    history_.write(row);
-    ++status_.steps;
-    observer_.progress(
-        {.time = process_.time(), .end = motion.duration(), .step = process_.steps(), .dt = dt});
-  }
-  observer_.steps_end();
-  status_.time = process_.time();
-  surface_.emplace(process_, *input_.machining);
-  judge();
-  return true;
-}
-
-machining::ProcessStep MillingRun::advance() {
+machining::ProcessStep MillingRun::made_step() {
   try {
     return process_.advance();
   } catch (const DivergenceError& error) { // nothing has been taken of the workpiece yet
@@ -308,6 +263,16 @@ void MillingRun::judge() {
                                 "radial depth: vibrations are not small beside the cut",
                                 si_format(steady.displacement, "m")))
              .what());
+  if (unsettled_steps_ > 0)
+    warn(input_
+             .error("dexels.steps",
+                    fmt::format(
+                        "forces and vibration do not agree in {} of {} steps, by up to {}: edges rub there "
+                        "that cut nothing from one question to the next, expected more steps where that "
+                        "matters",
+                        unsettled_steps_, steps(), si_format(unsettled_, "m")))
+             .what());
+  surface_.emplace(process_, *input_.machining);
   const std::string surface = surface_->tell(status_);
   const machining::MillingLedger& ledger = process_.ledger();
   status_.energy_residual = ledger.share();

@@ -1,26 +1,18 @@
 #pragma once
 // One milling cut in the time domain: forces, vibrations, and the surface that is left.
 #include "app/machining/machined_surface.hpp"
-#include "app/machining/machining_session.hpp"
-#include "app/time_control.hpp"
+#include "app/machining/stepped_run.hpp"
 #include "machining/cut_vibration.hpp"
 #include "machining/milling_process.hpp"
-#include "results/checkpoint.hpp"
 
 namespace cnem::app {
 
 /// Writes history.csv (a row a step), surface.csv and surface.vtk (what is left on the machined side along
 /// the path) with a picture, spectra.csv, status.json and the report.
-class MillingRun final : public MachiningSession {
+class MillingRun final : public SteppedRun {
 public:
   MillingRun(const input::Case& input, const RunOptions& options, RunObserver& observer,
              bool goes_on = false);
-
-  /// Takes the state of a checkpoint and goes on behind the rows that were there. Throws IoError with the
-  /// reason when it does not fit the case or the files.
-  void resume(results::CheckpointReader& checkpoint);
-  /// A warning beside those of the case.
-  void warn(std::string warning) { status_.warnings.push_back(std::move(warning)); }
 
 private:
   /// The largest and the mean of a part of the run.
@@ -34,32 +26,37 @@ private:
     void add(const machining::ProcessStep& step, double dt);
     void archive(Archive& archive);
   };
-  bool solve() override;
-  void write_files() override;
-  void judge();
-  /// One step; where it fails a checkpoint of the state before it is left.
-  machining::ProcessStep advance();
-  /// Those that are not of a part that deforms.
-  std::vector<machining::Mode> modes_of_process() const;
-  /// Growth of disturbances, spectra and frequency of chatter; whether disturbances grow.
-  bool judge_vibration();
   struct Window {
     double from = 0.0, to = 0.0; ///< steps
     bool holds(double at) const { return at > from && at < to; }
   };
+  bool at_end() const override { return process_.at_end(); }
+  std::int64_t steps() const override { return process_.steps(); }
+  double time() const override { return process_.time(); }
+  double end() const override { return process_.motion().duration(); }
+  double dt() const override { return process_.motion().dt(process_.steps()); }
+  void advance() override;
+  void archive(Archive& archive) override;
+  void judge() override;
+  void write_files() override;
+  /// One step; where it fails a checkpoint of the state before it is left.
+  machining::ProcessStep made_step();
+  /// Those that are not of a part that deforms.
+  std::vector<machining::Mode> modes_of_process() const;
+  /// Growth of disturbances, spectra and frequency of chatter; whether disturbances grow.
+  bool judge_vibration();
   /// Whole turns that stand for the cut: the last ones, a share of all, up to where the feed ends; of passes,
   /// which enter and leave, those in the middle half of the last one. most: turns.
   Window steady_turns(double share, double most) const;
-  void write_checkpoint();
-  std::filesystem::path history_file() const; ///< empty where there is no folder
-  void archive(Archive& archive);
 
   machining::MillingProcess process_;
-  CheckpointTimer checkpoints_;
+  Window counts_, heard_;        ///< turns that stand for forces, and for vibration
   Course steady_;                ///< of the last turns
   double first_frequency_ = 0.0; ///< Hz, of a part that deforms, at first
 
   machining::CutVibration vibration_; ///< of the turns that stand for the cut
+  std::int64_t unsettled_steps_ = 0;  ///< in which forces and vibration did not quite agree
+  double unsettled_ = 0.0;            ///< m, by how much at most
   std::optional<MachinedSurface> surface_;
 };
 

@@ -2,9 +2,6 @@
 
 #include "core/error.hpp"
 #include "core/index.hpp"
-#include "core/machine/isa.hpp"
-#include "results/checkpoint_folder.hpp"
-#include "results/output_folder.hpp"
 #include "results/si_format.hpp"
 
 #include <algorithm>
@@ -44,12 +41,12 @@ std::vector<std::string> columns_of(const input::PartCase& part, bool reference)
 
 RemovalRun::RemovalRun(const input::Case& input, const RunOptions& options, RunObserver& observer,
                        bool goes_on)
-    : MachiningSession(input, options, observer, goes_on), case_(*input.structure->part),
-      removal_(*input.structure->removal), part_(part_of(input)),
-      standing_(Eigen::VectorXd::Zero(part_.unknowns())), columns_(columns_of(case_, removal_.reference)),
-      checkpoints_(input.output.checkpoint), state_(machining::RemovalState::at_rest(part_.unknowns())),
-      reference_(state_), largest_(case_.places.size(), 0.0), deviation_(largest_),
-      reference_largest_(largest_) {
+    : SteppedRun(input, options, observer, goes_on,
+                 columns_of(*input.structure->part, input.structure->removal->reference)),
+      case_(*input.structure->part), removal_(*input.structure->removal), part_(part_of(input)),
+      standing_(Eigen::VectorXd::Zero(part_.unknowns())),
+      state_(machining::RemovalState::at_rest(part_.unknowns())), reference_(state_),
+      largest_(case_.places.size(), 0.0), deviation_(largest_), reference_largest_(largest_) {
   for (const input::PartPlace& place : case_.places) {
     place_.push_back(displacement_at(input, part_, place));
     standing_ += place_.back().transpose() * place.force;
@@ -113,32 +110,6 @@ void RemovalRun::advance() {
   });
 }
 
-bool RemovalRun::solve() {
-  if (!history_.begun()) history_.start(history_file(), columns_);
-  const machining::RemovalSettings& settings = removal_.settings;
-  const auto time = [&] { return static_cast<double>(state_.step) * settings.dt; };
-  while (state_.step < settings.steps) {
-    const Request request = observer_.request();
-    const bool stopped = request.kind == Request::Kind::stop;
-    if (stopped || request.kind == Request::Kind::checkpoint || checkpoints_.due(state_.step, time()))
-      write_checkpoint();
-    if (stopped) {
-      status_.exit = Exit::interrupted;
-      status_.time = time();
-      status_.reason = fmt::format("by {} at step {}", request.by, state_.step);
-      observer_.steps_end();
-      return true;
-    }
-    if (request.kind == Request::Kind::pause) return false;
-    advance();
-    observer_.progress({.time = time(), .end = removal_.duration, .step = state_.step, .dt = settings.dt});
-  }
-  observer_.steps_end();
-  status_.time = time();
-  judge();
-  return true;
-}
-
 void RemovalRun::judge() {
   std::array<double, 2> first{};
   for (const auto& [k, name, time] : {std::tuple{0U, "begin", 0.0}, {1U, "end", status_.time}}) {
@@ -186,32 +157,6 @@ void RemovalRun::archive(Archive& archive) {
   }
   archive.integer("removal/iterations", iterations_);
   archive.integer("removal/most_iterations", most_iterations_);
-}
-
-void RemovalRun::write_checkpoint() {
-  const double time = static_cast<double>(state_.step) * removal_.settings.dt;
-  if (!options_.output.empty()) {
-    results::flush_file(history_file()); // what the checkpoint counts on must not be lost before it
-    results::CheckpointWriter writer;
-    results::CheckpointInfo info{options_.version, std::string(isa_name(active_isa())),
-                                 input_.name,      results::hash_of_inputs(input_.resolved),
-                                 state_.step,      time};
-    info.archive(writer);
-    archive(writer);
-    results::add_checkpoint(options_.output, writer.content(), input_.output.checkpoint.keep);
-  }
-  checkpoints_.written(state_.step, time);
-}
-
-void RemovalRun::resume(results::CheckpointReader& checkpoint) {
-  archive(checkpoint);
-  history_.resume(history_file(), columns_, state_.step);
-  status_.steps = state_.step;
-  checkpoints_.written(state_.step, static_cast<double>(state_.step) * removal_.settings.dt);
-}
-
-std::filesystem::path RemovalRun::history_file() const {
-  return options_.output.empty() ? options_.output : options_.output / results::files::history;
 }
 
 void describe_removal(const input::Case& input, const machining::Part& part, Checked& checked) {
