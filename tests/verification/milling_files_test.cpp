@@ -16,7 +16,7 @@ namespace cnem::testing {
 namespace {
 
 /// Runs cases/milling/time_chart at 5000 rpm, where the limit of Floquet is 0.2603 mm.
-results::RunStatus cut_at(const std::string& depth, const std::filesystem::path& folder) {
+results::RunStatus milled_at(const std::string& depth, const std::filesystem::path& folder) {
   const input::Case input =
       input::read_case(std::string(CNEM_SOURCE_DIR) + "/cases/milling/time_chart/case.toml",
                        {"milling.axial_depth=" + depth, "milling.length=1.6 mm", "dexels.layers=3"});
@@ -28,7 +28,7 @@ results::RunStatus cut_at(const std::string& depth, const std::filesystem::path&
 
 TEST(MillingFiles, SpectraAndStatusTellChatterFromHarmonics) {
   const TemporaryFolder folder("chatter");
-  const results::RunStatus grows = cut_at("0.275 mm", folder.path());
+  const results::RunStatus grows = milled_at("0.275 mm", folder.path());
   EXPECT_EQ(grows.metric("milling.chatter"), 1.0);
   EXPECT_GT(grows.metric("milling.growth").value_or(0.0), 1.0);
   const double chatter = grows.metric("milling.chatter_frequency").value_or(0.0);
@@ -51,7 +51,7 @@ TEST(MillingFiles, SpectraAndStatusTellChatterFromHarmonics) {
   }
   EXPECT_NEAR(at, chatter, 1.5 * frequency[1]) << "the strongest line that is no harmonic";
 
-  const results::RunStatus decays = cut_at("0.25 mm", folder.path());
+  const results::RunStatus decays = milled_at("0.25 mm", folder.path());
   EXPECT_EQ(decays.metric("milling.chatter"), 0.0);
   EXPECT_LT(decays.metric("milling.growth").value_or(2.0), 1.0);
   EXPECT_FALSE(decays.metric("milling.chatter_frequency"));
@@ -59,7 +59,7 @@ TEST(MillingFiles, SpectraAndStatusTellChatterFromHarmonics) {
 
 TEST(MillingFiles, SurfaceIsAGridOfWhatIsLeft) {
   const TemporaryFolder folder("surface");
-  cut_at("0.1 mm", folder.path());
+  milled_at("0.1 mm", folder.path());
   const results::HistoryTable surface =
       results::read_history(folder.path() / results::files::machined_surface);
   ASSERT_EQ(surface.column.size(), 4U) << "x and three layers";
