@@ -71,7 +71,7 @@ public:
 
   /// In space: the same of edges that crossed between their nodes, in the order of the edges.
   void find_edges(const Surface<dim>& surface, PlacesOnBoundary<dim> start, PlacesOnBoundary<dim> end,
-                  std::vector<EdgeHit>& hits) const requires(dim == 3);
+                  std::vector<EdgeHit>& hits) const; // only in space
 
   double size() const { return size_; } ///< m, extent of the boundary as listed: the scale of rounding
   int listings() const { return listings_; }

@@ -131,7 +131,10 @@ void machine(const Part& part, const RemovalSettings& settings, RemovalState& st
   const auto interpolates = settings.inverse == EffectiveInverse::interpolated ||
                             settings.inverse == EffectiveInverse::interpolated_common;
   const auto time = [&](std::int64_t step) { return static_cast<double>(step) * settings.dt; };
-  auto& [begin, motion, ledger, force_before] = state;
+  std::int64_t& begin = state.step;
+  Motion& motion = state.motion;
+  EnergyLedger& ledger = state.energy;
+  Eigen::VectorXd& force_before = state.force;
   std::unique_ptr<Frozen> after;
   while (begin < settings.steps) {
     const std::int64_t end = std::min(begin + settings.interval, settings.steps);
