@@ -185,6 +185,7 @@ void write_pages(const std::vector<RunRecord>& runs, const fs::path& folder, con
   const PageTexts texts = pages.write(runs);
   results::write_atomically(folder / pages.table, texts.table);
   results::write_atomically(folder / pages.report, texts.report);
+  for (const auto& [name, text] : texts.more) results::write_atomically(folder / name, text);
   if (pages.tell) pages.tell(runs);
 }
 

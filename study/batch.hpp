@@ -11,6 +11,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace cnem::study {
@@ -67,6 +68,7 @@ void make_folder(const std::filesystem::path& folder);
 
 struct PageTexts {
   std::string table, report;
+  std::vector<std::pair<std::string, std::string>> more{}; ///< names and texts of other files
 };
 
 /// What shows the runs together.

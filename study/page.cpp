@@ -41,8 +41,8 @@ constexpr const char* table_style = R"css(
 .runs .bad { color: var(--bad); }
 )css";
 
-/// A spreadsheet takes a text that begins like a formula for one, and may act on it: an apostrophe keeps it a
-/// text.
+} // namespace
+
 std::string csv_field(const std::string& text) {
   const bool like_formula = text.find_first_of("=+-@\t\r") == 0 && !is_quantity(text);
   const std::string shown = like_formula ? "'" + text : text;
@@ -51,8 +51,6 @@ std::string csv_field(const std::string& text) {
   for (const char c : shown) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
   return quoted + '"';
 }
-
-} // namespace
 
 std::string csv_table(const Study& study, const std::vector<RunRecord>& runs,
                       const std::vector<NumberColumn>& columns) {

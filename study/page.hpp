@@ -22,6 +22,10 @@ struct NumberColumn {
 std::string csv_table(const Study& study, const std::vector<RunRecord>& runs,
                       const std::vector<NumberColumn>& columns);
 
+/// A text as a field of a CSV file; one that a spreadsheet would take for a formula begins with an
+/// apostrophe.
+std::string csv_field(const std::string& text);
+
 /// "metrics.K_I" without its first part.
 std::string column_name(const std::string& path);
 

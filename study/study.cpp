@@ -17,19 +17,6 @@ namespace {
 
 using Kind = input::Value::Kind;
 
-void check_column(const std::string& name, const input::Location& where, const std::string& key,
-                  std::vector<std::string> also, input::Diagnostics& diagnostics) {
-  if ((name.starts_with("metrics.") && name.size() > 8) || (name.starts_with("wall_s.") && name.size() > 7))
-    return;
-  also.insert(also.end(), {"nodes", "points", "steps", "node_steps", "time", "energy_residual", "cpu_s",
-                           "peak_rss_bytes", "metrics.NAME", "wall_s.NAME"});
-  if (std::find(also.begin(), also.end(), name) != also.end() && !name.ends_with(".NAME")) return;
-  diagnostics.add(input::Mistake::reference, where, key,
-                  fmt::format("found '{}', expected a number of status.json such as nodes or "
-                              "metrics.strain_energy{}",
-                              name, input::did_you_mean(name, also)));
-}
-
 /// Values of a key along an axis: numbers of one unit. Variables have values of their own.
 void check_axis(const Study& study, const StudyChart& chart, input::Diagnostics& diagnostics) {
   if (is_variable(chart.x)) return;
@@ -96,6 +83,19 @@ void read_charts(const input::Value& list, Study& study, input::Diagnostics& dia
 
 } // namespace
 
+void check_column(const std::string& name, const input::Location& where, const std::string& key,
+                  std::vector<std::string> also, input::Diagnostics& diagnostics) {
+  if ((name.starts_with("metrics.") && name.size() > 8) || (name.starts_with("wall_s.") && name.size() > 7))
+    return;
+  also.insert(also.end(), {"nodes", "points", "steps", "node_steps", "time", "energy_residual", "cpu_s",
+                           "peak_rss_bytes", "metrics.NAME", "wall_s.NAME"});
+  if (std::find(also.begin(), also.end(), name) != also.end() && !name.ends_with(".NAME")) return;
+  diagnostics.add(input::Mistake::reference, where, key,
+                  fmt::format("found '{}', expected a number of status.json such as nodes or "
+                              "metrics.strain_energy{}",
+                              name, input::did_you_mean(name, also)));
+}
+
 std::vector<input::Override> StudyRun::changes() const {
   std::vector<input::Override> all = common;
   all.insert(all.end(), own.begin(), own.end());
@@ -125,10 +125,10 @@ bool is_variable(std::string_view key) { return key.starts_with("let."); }
 Study read_study_text(std::string_view text, const fs::path& path) {
   const input::Value root = input::parse_document(text, path.string());
   input::Diagnostics diagnostics;
-  TableReader table(
-      root, "",
-      {"title", "case", "set", "grid", "axis", "run", "processes", "threads", "columns", "charts", "history"},
-      diagnostics);
+  TableReader table(root, "",
+                    {"title", "case", "set", "grid", "axis", "run", "processes", "threads", "columns",
+                     "charts", "history", "laminate"},
+                    diagnostics);
   Study study;
   study.name = input::name_after(path, "study");
   study.text = text;
@@ -152,6 +152,8 @@ Study read_study_text(std::string_view text, const fs::path& path) {
   read_runs(root, table, study, diagnostics);
   if (const input::Value* charts = table.find("charts", Kind::array, "a list of tables with x and y"))
     read_charts(*charts, study, diagnostics);
+  if (const input::Value* laminate = table.find("laminate", Kind::table, "a table with angle and plies"))
+    study.laminate = read_laminate(*laminate, study, diagnostics);
   diagnostics.throw_if_any();
   return study;
 }

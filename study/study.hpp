@@ -4,6 +4,7 @@
 #include "input/schema/document.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,22 @@ struct StudyAxis {
   const std::string& of(const std::string& name_or_key) const;
 };
 
+/// A ply of a laminate, as thick along the cutting edge as it is; it is cut as one of the runs is.
+struct LaminatePly {
+  std::string name;
+  double angle = 0.0, thickness = 0.0; ///< rad, m
+  std::vector<input::Override> chosen; ///< values of other keys of the study that its run has
+  input::Location where;
+};
+
+/// Plies of several angles that a tool cuts side by side: each as if it were alone.
+struct Laminate {
+  std::string angle;                ///< variable of the case or key of the study: of the fibres
+  std::vector<std::string> columns; ///< of means; empty: the default ones
+  std::vector<LaminatePly> plies;
+  input::Location where;
+};
+
 struct Study {
   std::string name; ///< of the file, or of the folder of a study.toml
   std::string title;
@@ -57,6 +74,7 @@ struct Study {
   std::vector<std::string> columns; ///< of the table; empty: the default ones
   std::vector<StudyChart> charts;
   std::vector<StudyHistory> history;
+  std::optional<Laminate> laminate;
 
   /// The axis with this name or key; nullptr when there is none.
   const StudyAxis* axis_of(const std::string& name_or_key) const;

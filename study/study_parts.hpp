@@ -38,4 +38,11 @@ std::vector<input::Override> read_set(const input::Value& table, const std::stri
 void read_runs(const input::Value& document, TableReader& table, Study& study,
                input::Diagnostics& diagnostics);
 
+/// A number of status.json by its dotted name, or one of `also`; else a mistake of `key`.
+void check_column(const std::string& name, const input::Location& where, const std::string& key,
+                  std::vector<std::string> also, input::Diagnostics& diagnostics);
+
+/// [laminate] of a study whose runs are known.
+Laminate read_laminate(const input::Value& table, const Study& study, input::Diagnostics& diagnostics);
+
 } // namespace cnem::study

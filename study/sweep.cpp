@@ -6,6 +6,8 @@
 #include "input/schema/nearest.hpp"
 #include "results/history_writer.hpp"
 #include "results/output_folder.hpp"
+#include "study/laminate.hpp"
+#include "study/page.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -14,13 +16,20 @@ namespace cnem::study {
 
 namespace {
 
-/// Reads the case of every run, so that a mistake in the last one shows before the first one starts.
-std::vector<RunRecord> read_cases(const Study& study) {
+/// What the cases of all runs say.
+struct CasesOfStudy {
   std::vector<RunRecord> runs;
+  std::vector<bool> cuts; ///< [run] whether it evaluates an orthogonal cut
+};
+
+/// Reads the case of every run, so that a mistake in the last one shows before the first one starts.
+CasesOfStudy read_cases(const Study& study) {
+  CasesOfStudy cases;
   for (const StudyRun& run : study.runs) {
     try {
       const input::Case input = input::read_case_with(study.case_file.string(), run.changes());
-      RunRecord& record = runs.emplace_back();
+      RunRecord& record = cases.runs.emplace_back();
+      cases.cuts.push_back(input.report.cutting.has_value());
       record.inputs = inputs_of(input);
       record.variables = input.variables;
       if (const auto& blanking = input.report.blanking) record.punch = input.tools[blanking->punch].name;
@@ -28,7 +37,7 @@ std::vector<RunRecord> read_cases(const Study& study) {
       throw InputError(fmt::format("{}\nin run '{}' of the study", error.what(), run.name));
     }
   }
-  return runs;
+  return cases;
 }
 
 /// Throws InputError for a chart over a variable that no case has.
@@ -45,6 +54,8 @@ void check_variables_of_charts(const Study& study, const std::vector<RunRecord>&
 /// Columns and charts that name what no run has.
 void warn_of_absent_numbers(const Study& study, const std::vector<RunRecord>& runs) {
   std::vector<std::string> wanted = study.columns, there;
+  if (study.laminate)
+    wanted.insert(wanted.end(), study.laminate->columns.begin(), study.laminate->columns.end());
   for (const StudyChart& chart : study.charts) wanted.insert(wanted.end(), chart.y.begin(), chart.y.end());
   bool any = false;
   for (const RunRecord& run : runs) {
@@ -82,25 +93,32 @@ void warn_of_absent_columns(const Study& study, const std::vector<RunRecord>& ru
 Exit sweep(const Study& study, const BatchOptions& options, SweepWork work) {
   check_threads(study.threads, "threads of the study");
   using Runs = std::vector<RunRecord>;
-  Runs cases = read_cases(study);
-  check_variables_of_charts(study, cases);
-  const Pages pages{.kind = "sweep",
-                    .table = "table.csv",
-                    .report = results::files::report,
-                    .write =
-                        [&](const Runs& runs) {
-                          return PageTexts{sweep_table(study, runs),
-                                           sweep_report(study, runs, options.output, options.version)};
-                        },
-                    .tell =
-                        [&](const Runs& runs) {
-                          for (const std::string& warning : warnings_of_runs(study, runs))
-                            fmt::print(stderr, "warning: {}\n", warning);
-                          warn_of_absent_numbers(study, runs);
-                          warn_of_absent_columns(study, runs, options.output);
-                          fmt::print("{}", extrapolations(study, runs));
-                        }};
-  return (work == SweepWork::merge ? merge_batch : run_batch)(study, std::move(cases), options, pages);
+  CasesOfStudy cases = read_cases(study);
+  check_variables_of_charts(study, cases.runs);
+  std::vector<std::size_t> plies; // the run of each
+  if (study.laminate) plies = runs_of_plies(study, cases.runs, cases.cuts);
+  const auto write = [&](const Runs& runs) {
+    PageTexts texts{.table = sweep_table(study, runs), .report = {}};
+    std::string section;
+    if (study.laminate) {
+      const LaminateCut cut = cut_of_laminate(study, runs, plies, options.output);
+      section = laminate_section(study, plies, cut, shown_units(study, options.output));
+      texts.more.emplace_back("laminate.csv", laminate_table(study, plies, cut));
+    }
+    texts.report = sweep_report(study, runs, options.output, options.version, section);
+    return texts;
+  };
+  const auto tell = [&](const Runs& runs) {
+    for (const std::string& warning : warnings_of_runs(study, runs))
+      fmt::print(stderr, "warning: {}\n", warning);
+    warn_of_absent_numbers(study, runs);
+    warn_of_absent_columns(study, runs, options.output);
+    fmt::print("{}", extrapolations(study, runs));
+    if (study.laminate) fmt::print("{}", laminate_line(cut_of_laminate(study, runs, plies, options.output)));
+  };
+  const Pages pages{
+      .kind = "sweep", .table = "table.csv", .report = results::files::report, .write = write, .tell = tell};
+  return (work == SweepWork::merge ? merge_batch : run_batch)(study, std::move(cases.runs), options, pages);
 }
 
 } // namespace cnem::study

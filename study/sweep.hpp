@@ -39,8 +39,10 @@ std::string sweep_table(const Study& study, const std::vector<RunRecord>& runs);
 /// What runs that are done were warned of, "run: text"; what several were warned of in the same words once.
 std::vector<std::string> warnings_of_runs(const Study& study, const std::vector<RunRecord>& runs);
 
-/// report.html: the charts, the histories in `folder`, and the table with links to the report of each run.
+/// report.html: `first`, the charts, the histories in `folder`, and the table with links to the report of
+/// each run.
 std::string sweep_report(const Study& study, const std::vector<RunRecord>& runs,
-                         const std::filesystem::path& folder, const std::string& version);
+                         const std::filesystem::path& folder, const std::string& version,
+                         const std::string& first = "");
 
 } // namespace cnem::study

@@ -100,7 +100,8 @@ std::vector<std::string> warnings_of_runs(const Study& study, const std::vector<
 }
 
 std::string sweep_report(const Study& study, const std::vector<RunRecord>& runs,
-                         const std::filesystem::path& folder, const std::string& version) {
+                         const std::filesystem::path& folder, const std::string& version,
+                         const std::string& first) {
   const auto count = [&](State state) {
     return std::count_if(runs.begin(), runs.end(), [&](const RunRecord& run) { return run.state == state; });
   };
@@ -115,7 +116,7 @@ std::string sweep_report(const Study& study, const std::vector<RunRecord>& runs,
                .version = version,
                .verdict = verdict,
                .good = count(State::done) == static_cast<std::ptrdiff_t>(runs.size())},
-              warnings(study, runs) + chart_section(charts, units) + run_table(study, runs, units) +
+              warnings(study, runs) + first + chart_section(charts, units) + run_table(study, runs, units) +
                   fmt::format("<section id=\"study\">\n<h2>The study</h2>\n<pre "
                               "tabindex=\"0\">{}</pre>\n</section>\n",
                               report::html_escape(study.text)));

@@ -1,0 +1,57 @@
+#pragma once
+// A laminate that is cut by one tool, put together of the cuts of its plies, each of which is cut alone:
+// docs/cutting.md.
+#include "report/chart.hpp"
+#include "results/shown_units.hpp"
+#include "study/batch.hpp"
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace cnem::study {
+
+/// The run in which each ply of the laminate is cut, [ply]. Angles of fibres are the same when they differ by
+/// half turns. Throws InputError for a ply that no run, or that several, are for, and for runs without
+/// [report.cutting]; `cuts` [run]: whether a run has that.
+std::vector<std::size_t> runs_of_plies(const Study& study, const std::vector<RunRecord>& runs,
+                                       const std::vector<bool>& cuts);
+
+/// A number of status.json of each ply and its mean over the thickness.
+struct LaminateColumn {
+  std::string name, unit;
+  std::vector<double> ply; ///< [ply], not-a-number: its run lacks it
+  double mean = 0.0;       ///< not-a-number where that of a ply is
+};
+
+/// Numbers that are not known are not-a-number.
+struct LaminateCut {
+  double thickness = 0.0;            ///< m, of all plies
+  std::vector<double> Fc, Ft;        ///< N, [ply]: of its share of the edge
+  std::vector<double> Fc_peak;       ///< N, [ply]
+  double Fc_sum = 0.0, Ft_sum = 0.0; ///< N
+  double peak = 0.0, peak_at = 0.0;  ///< N, m of cut: largest sum of the plies' filtered Fc there
+  std::vector<double> damage_depth;  ///< m below the cut, [ply]: of fibres, matrix or bonds
+  std::vector<double> delamination;  ///< m, [interface]: |difference| of the depths beside it
+  std::vector<LaminateColumn> columns;
+  report::Chart forces; ///< over the cut: the laminate's, and the share of each ply
+};
+
+/// Expects a study with a laminate whose plies are cut in `run` [ply]; `folder` holds the runs. Throws
+/// IoError.
+LaminateCut cut_of_laminate(const Study& study, const std::vector<RunRecord>& runs,
+                            const std::vector<std::size_t>& run, const std::filesystem::path& folder);
+
+/// laminate.csv: a row for each ply from above, in SI, with the indicator of the interface below it, and one
+/// for all.
+std::string laminate_table(const Study& study, const std::vector<std::size_t>& run, const LaminateCut& cut);
+
+/// The section of the report.
+std::string laminate_section(const Study& study, const std::vector<std::size_t>& run, const LaminateCut& cut,
+                             const results::ShownUnits& units);
+
+/// A line of text: what the laminate takes.
+std::string laminate_line(const LaminateCut& cut);
+
+} // namespace cnem::study
