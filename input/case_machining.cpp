@@ -220,6 +220,10 @@ void read_machining(Setting& root, Case& result, Diagnostics& diagnostics) {
                     fmt::format("found {:g} m, expected less than the radius of the cutter, {:g} m",
                                 read.cut.feed, 0.5 * diameter));
   read_cutting_law(root, read, diagnostics);
+  if (const Setting* flank = root.find("cutting.flank"))
+    read.cut.flank = {flank->get<double>("land"), flank->get<double>("clearance"),
+                      flank->get<double>("recovery"), flank->get<double>("specific_force"),
+                      flank->get<double>("friction")};
   for (const Setting& table : root.entries("modes")) read.modes.push_back(read_mode(table, diagnostics));
   if (const Setting* modes = root.find("modes")) check_modes(*modes, read, diagnostics);
   if (const Setting* part = root.find("part")) {

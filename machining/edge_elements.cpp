@@ -20,16 +20,33 @@ EdgeElements::EdgeElements(const MillingCut& cut, double depth, int layers, doub
   for (std::size_t j = 0; j < cut.cutter.teeth(); ++j) teeth_.push_back(cut.cutter.behind(j));
 }
 
-Rake EdgeElements::rake(std::size_t layer, std::size_t tooth, const CutterPlace& place, double reach) const {
+Vec2 EdgeElements::arm(std::size_t layer, std::size_t tooth, const CutterPlace& place) const {
   const Cutter& cutter = cut_.cutter;
   const Layer& at = layer_[layer];
-  Vec2 axis = place.axis.head<2>();
-  if (cutter.run_out > 0.0) axis += cutter.run_out * outward(place.angle + cutter.run_out_angle).head<2>();
   const double low = at.low - place.axis.z();
   const double radius =
       chord_ * (cutter.corner > 0.0 ? cutter.mean_radius(low, low + thickness_) : at.radius);
-  const Vec2 out = outward(place.angle - teeth_[tooth] - at.lag).head<2>();
-  return {axis + radius * out, axis + std::max(0.0, radius - reach) * out};
+  return radius * outward(phi(layer, tooth, place.angle)).head<2>();
+}
+
+Rake EdgeElements::rake(std::size_t layer, std::size_t tooth, const CutterPlace& place, double reach) const {
+  const Cutter& cutter = cut_.cutter;
+  Vec2 axis = place.axis.head<2>();
+  if (cutter.run_out > 0.0) axis += cutter.run_out * outward(place.angle + cutter.run_out_angle).head<2>();
+  const Vec2 edge = arm(layer, tooth, place);
+  return {axis + edge, axis + std::max(0.0, 1.0 - reach / edge.norm()) * edge};
+}
+
+Vec3 EdgeElements::bear(EdgeLoad& load, std::size_t layer, std::size_t tooth, double turned,
+                        const Vec3& local) const {
+  const Vec3 force = on_tool(phi(layer, tooth, turned), layer_[layer].lead, local);
+  load.force += force;
+  load.torque += local[0] * layer_[layer].radius;
+  if (const Cutter& cutter = cut_.cutter; cutter.run_out > 0.0) { // round the axis of the spindle
+    const double out = turned + cutter.run_out_angle;
+    load.torque -= cutter.run_out * (force.x() * std::cos(out) - force.y() * std::sin(out));
+  }
+  return force;
 }
 
 void EdgeElements::add(EdgeLoad& load, std::size_t layer, std::size_t tooth, const Bite& bite,
@@ -48,19 +65,21 @@ void EdgeElements::add(EdgeLoad& load, std::size_t layer, std::size_t tooth, con
   const double chip = inward * thickness_ / at.width;
   const double middle = 0.5 * (bite.begin + bite.end);
   const double turned = from.angle + middle * (to.angle - from.angle);
-  const double phi = turned - teeth_[tooth] - at.lag;
   const Vec3 local = at.width * share * cut_.law.at({.thickness = chip, .speed = path / duration}).force;
-  const Vec3 force = on_tool(phi, at.lead, local);
-  load.force += force;
-  load.torque += local[0] * at.radius;
-  if (const Cutter& cutter = cut_.cutter; cutter.run_out > 0.0) { // round the axis of the spindle
-    const double out = turned + cutter.run_out_angle;
-    load.torque -= cutter.run_out * (force.x() * std::cos(out) - force.y() * std::sin(out));
-  }
-  load.work -= force.dot(way);
+  load.work -= bear(load, layer, tooth, turned, local).dot(way);
   load.power += local[0] * path * of_edge / duration;
   load.removed += bite.area * thickness_;
   load.thickest = std::max(load.thickest, chip);
+}
+
+void EdgeElements::plough(EdgeLoad& load, std::size_t layer, std::size_t tooth, double pressed,
+                          const Vec3& way, double duration, const CutterPlace& from,
+                          const CutterPlace& to) const {
+  if (!(pressed > 0.0)) return;
+  // Across the profile the land is pressed in by less and is as much longer: the volume is that of the layer.
+  const double normal = cut_.flank.specific_force * pressed * thickness_, rub = cut_.flank.friction * normal;
+  load.ploughed -= bear(load, layer, tooth, 0.5 * (from.angle + to.angle), Vec3(rub, normal, 0.0)).dot(way);
+  load.power += rub * way.head<2>().norm() / duration;
 }
 
 } // namespace cnem::machining

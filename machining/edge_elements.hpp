@@ -17,8 +17,9 @@ struct CutterPlace {
 struct EdgeLoad {
   Vec3 force = Vec3::Zero(); ///< N
   double torque = 0.0;       ///< N m, against the spindle
-  double work = 0.0;         ///< J, of edges along their ways relative to the part
-  double power = 0.0;        ///< W, of the forces along the ways of the middles of chips
+  double work = 0.0;         ///< J, of edges along their ways relative to the part, against the chip
+  double ploughed = 0.0;     ///< J, the same against the surface under their flanks
+  double power = 0.0;        ///< W, of the forces along the ways of the middles of chips, and under flanks
   double removed = 0.0;      ///< m³
   double thickest = 0.0;     ///< m, chip
 };
@@ -41,10 +42,16 @@ public:
   /// cuts a layer farther down its profile.
   Rake rake(std::size_t layer, std::size_t tooth, const CutterPlace& place, double reach) const;
 
+  /// m, from the axis of the cutter to an edge.
+  Vec2 arm(std::size_t layer, std::size_t tooth, const CutterPlace& place) const;
+
   /// Adds what an element bears that has taken a bite on its way in a step, m relative to the part, of a
   /// duration, s, and between two angles of the cutter.
   void add(EdgeLoad& load, std::size_t layer, std::size_t tooth, const Bite& bite, const Vec3& way,
            double duration, const CutterPlace& from, const CutterPlace& to) const;
+  /// Adds what its flank bears that presses in a section on that way, m², in the mean of the step.
+  void plough(EdgeLoad& load, std::size_t layer, std::size_t tooth, double pressed, const Vec3& way,
+              double duration, const CutterPlace& from, const CutterPlace& to) const;
 
 private:
   struct Layer {
@@ -54,6 +61,13 @@ private:
     double width = 0.0;  ///< m, of the chip: along the profile
     double lead = 0.0;   ///< rad
   };
+  /// Of an edge at a layer when the cutter has turned so far.
+  double phi(std::size_t layer, std::size_t tooth, double turned) const {
+    return turned - teeth_[tooth] - layer_[layer].lag;
+  }
+  /// Adds forces (tangential, radial, axial), N, where the cutter has turned so far. The force on the tool.
+  Vec3 bear(EdgeLoad& load, std::size_t layer, std::size_t tooth, double turned, const Vec3& local) const;
+
   MillingCut cut_;
   double thickness_ = 0.0, chord_ = 1.0; ///< m; of the radius
   std::vector<Layer> layer_;

@@ -90,6 +90,7 @@ void MillingProcess::begin_pass(std::size_t pass) {
   state_.setZero();
   shift_.assign(layer_.size(), Vec3::Zero());
   force_ = shift_;
+  if (flanks_) flanks_->clear();
   const Vec2 at = axis_at(static_cast<double>(step_));
   for (std::size_t k = 0; k < layer_.size(); ++k) {
     const double radius = edges_.radius(k);

@@ -52,31 +52,72 @@ DirectionalFactors directional_factors(const MillingCut& cut, std::size_t tooth,
   return on_tool(phi, point.slope) * outward(phi).head<2>().transpose();
 }
 
-DirectionalFactors directional_factors(const MillingCut& cut, std::size_t tooth, double tip, double depth,
-                                       double spindle) {
+namespace {
+
+/// Of one tooth whose tip is at an angle: per_depth(φ) over the part of [0, depth] that is in the cut.
+template<class PerDepth>
+DirectionalFactors along_edge(const MillingCut& cut, double tip, double depth, const PerDepth& per_depth) {
   DirectionalFactors sum = DirectionalFactors::Zero();
   const double from = cut.engagement.entry(cut.cutter), to = cut.engagement.exit(cut.cutter);
   const double lag = cut.cutter.lag(depth);
   constexpr double straight = 1e-9; // rad of lag
   if (std::abs(lag) < straight) {
     const double phi = tip - full_turn * std::floor(tip / full_turn);
-    if (phi >= from && phi <= to) sum = depth * directional_factors(cut, tooth, phi, spindle);
+    if (phi >= from && phi <= to) sum = depth * per_depth(phi);
     return sum;
   }
   // φ goes from tip − lag to tip along the edge; a long one is in the cut in several places.
   const double low = std::min(tip - lag, tip), high = std::max(tip - lag, tip);
   for (int k = static_cast<int>(std::floor((low - to) / full_turn)); k * full_turn + from < high; ++k)
     integrate(std::max(low, k * full_turn + from), std::min(high, k * full_turn + to), sum,
-              [&](double phi) { return directional_factors(cut, tooth, phi - k * full_turn, spindle); });
+              [&](double phi) { return per_depth(phi - k * full_turn); });
   return sum * (depth / std::abs(lag));
 }
 
-DirectionalFactors mean_factors(const MillingCut& cut, double spindle) {
+template<class PerDepth> DirectionalFactors mean_of_turn(const MillingCut& cut, const PerDepth& per_depth) {
   DirectionalFactors sum = DirectionalFactors::Zero();
   for (std::size_t j = 0; j < cut.cutter.teeth(); ++j)
     integrate(cut.engagement.entry(cut.cutter), cut.engagement.exit(cut.cutter), sum,
-              [&](double phi) { return directional_factors(cut, j, phi, spindle); });
+              [&](double phi) { return per_depth(j, phi); });
   return sum / full_turn;
+}
+
+/// Per depth, at one angle. N s/m²
+DirectionalFactors damping_per_depth(const MillingCut& cut, std::size_t tooth, double phi, double spindle) {
+  const double damping = cut.flank.damping(flank_rise(cut, tooth, phi), spindle * cut.cutter.radius());
+  return damping * on_tool(phi, Vec3(cut.flank.friction, 1.0, 0.0)) * outward(phi).head<2>().transpose();
+}
+
+} // namespace
+
+DirectionalFactors directional_factors(const MillingCut& cut, std::size_t tooth, double tip, double depth,
+                                       double spindle) {
+  return along_edge(cut, tip, depth,
+                    [&](double phi) { return directional_factors(cut, tooth, phi, spindle); });
+}
+
+DirectionalFactors mean_factors(const MillingCut& cut, double spindle) {
+  return mean_of_turn(cut,
+                      [&](std::size_t j, double phi) { return directional_factors(cut, j, phi, spindle); });
+}
+
+double flank_rise(const MillingCut& cut, std::size_t tooth, double phi) {
+  const Cutter& cutter = cut.cutter;
+  const double feed = cut.feed * static_cast<double>(cutter.teeth()) / full_turn; // m per rad
+  return (feed * std::sin(phi) - cutter.run_out * std::sin(cutter.run_out_angle + cutter.behind(tooth))) /
+         cutter.radius();
+}
+
+DirectionalFactors damping_factors(const MillingCut& cut, std::size_t tooth, double tip, double depth,
+                                   double spindle) {
+  if (!cut.flank.presses()) return DirectionalFactors::Zero();
+  return along_edge(cut, tip, depth, [&](double phi) { return damping_per_depth(cut, tooth, phi, spindle); });
+}
+
+DirectionalFactors mean_damping(const MillingCut& cut, double spindle) {
+  if (!cut.flank.presses()) return DirectionalFactors::Zero();
+  return mean_of_turn(cut,
+                      [&](std::size_t j, double phi) { return damping_per_depth(cut, j, phi, spindle); });
 }
 
 } // namespace cnem::machining

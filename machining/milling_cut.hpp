@@ -2,6 +2,7 @@
 // A milling cut as stability and forces see it, and how its forces answer to vibrations.
 #include "machining/cutter.hpp"
 #include "machining/cutting_law.hpp"
+#include "machining/flank.hpp"
 
 #include <Eigen/Core>
 
@@ -11,6 +12,7 @@ struct MillingCut {
   Cutter cutter;
   Engagement engagement;
   CuttingLaw law;
+  Flank flank{};     ///< none: flanks are free
   double feed = 0.0; ///< m per tooth, the mean of a turn
 };
 
@@ -35,6 +37,16 @@ DirectionalFactors directional_factors(const MillingCut& cut, std::size_t tooth,
 /// u(t) − u(t − τ) are its force. spindle: rad/s.
 DirectionalFactors directional_factors(const MillingCut& cut, std::size_t tooth, double tip, double depth,
                                        double spindle);
+
+/// By how much the way of an edge leaves its circle outwards per length of it: by its feed, and by the
+/// run-out.
+double flank_rise(const MillingCut& cut, std::size_t tooth, double phi);
+
+/// Of flanks that plough: ∂F/∂u̇ of one tooth, as directional_factors(). N s/m
+DirectionalFactors damping_factors(const MillingCut& cut, std::size_t tooth, double tip, double depth,
+                                   double spindle);
+/// Per depth, the mean over a turn of the sum over the teeth. N s/m²
+DirectionalFactors mean_damping(const MillingCut& cut, double spindle);
 
 /// Per depth, the mean over a turn of the sum over the teeth (Altintas and Budak 1995). N/m²
 DirectionalFactors mean_factors(const MillingCut& cut, double spindle);

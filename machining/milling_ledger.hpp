@@ -11,15 +11,18 @@ namespace cnem::machining {
 
 /// What drives have put in since the begin of a run, where it went, and what modes hold now. All J.
 struct MillingLedger {
-  double spindle = 0.0; ///< by the torque of the spindle
-  double feed = 0.0;    ///< by the drive of the feed, against the forces on the cutter
-  double cutting = 0.0; ///< of edges along their own ways relative to the part: into chips and surface
-  double damping = 0.0; ///< lost in modes
-  double part = 0.0;    ///< taken by a part that deforms: into its motion and its damping
+  double spindle = 0.0;   ///< by the torque of the spindle
+  double feed = 0.0;      ///< by the drive of the feed, against the forces on the cutter
+  double cutting = 0.0;   ///< of edges along their own ways relative to the part: into chips and surface
+  double ploughing = 0.0; ///< of flanks, along the same ways: into the surface
+  double damping = 0.0;   ///< lost in modes
+  double part = 0.0;      ///< taken by a part that deforms: into its motion and its damping
   double kinetic = 0.0, elastic = 0.0; ///< of modes, at present
 
   /// What goes in less what is found.
-  double residual() const { return spindle + feed - cutting - damping - part - kinetic - elastic; }
+  double residual() const {
+    return spindle + feed - cutting - ploughing - damping - part - kinetic - elastic;
+  }
   /// The same as a share of what has gone through. Elements of edges are rigid in a step: it is of the order
   /// of the square of the angle of one.
   double share() const {
@@ -30,6 +33,7 @@ struct MillingLedger {
     for (const auto& [name, value] : {std::tuple{"spindle", &spindle},
                                       {"feed", &feed},
                                       {"cutting", &cutting},
+                                      {"ploughing", &ploughing},
                                       {"damping", &damping},
                                       {"part", &part},
                                       {"kinetic", &kinetic},

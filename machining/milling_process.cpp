@@ -29,6 +29,12 @@ MillingProcess::MillingProcess(MillingCut cut, std::vector<Mode> modes, const Pr
   bite_.resize(edges_.layers() * edges_.teeth());
   way_.resize(bite_.size());
   if (part_) edge_.resize(bite_.size());
+  if (cut_.flank.presses()) {
+    std::vector<double> radius;
+    for (std::size_t k = 0; k < layer_.size(); ++k) radius.push_back(edges_.radius(k));
+    flanks_.emplace(cut_.flank, radius, edges_.teeth(), full_turn / settings.steps);
+    pressed_.resize(bite_.size());
+  }
   shape_ = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(layer_.size()), state_.cols());
   shift_.assign(layer_.size(), Vec3::Zero());
   force_ = shift_;
@@ -154,7 +160,9 @@ EdgeLoad MillingProcess::bear(const PerLayer& shift, PerLayer& force, TakeBite&&
       }
       const Vec2 way = sweep.to.edge - sweep.from.edge;
       way_[k * edges_.teeth() + j] = {way.x(), way.y(), last.axis.z() - first.axis.z() - lifted};
-      bite_[k * edges_.teeth() + j] = bite(k, sweep);
+      const std::size_t i = k * edges_.teeth() + j;
+      bite_[i] = bite(k, sweep);
+      if (flanks_) pressed_[i] = flanks_->pressed(i, edges_.arm(k, j, last), way_of(i));
     }
   }
   failure.rethrow();
@@ -165,6 +173,8 @@ EdgeLoad MillingProcess::bear(const PerLayer& shift, PerLayer& force, TakeBite&&
     for (std::size_t j = 0; j < edges_.teeth(); ++j, ++i) {
       const Vec3 others = load.force;
       edges_.add(load, k, j, bite_[i], way_[i], dt_, from, to);
+      if (flanks_)
+        edges_.plough(load, k, j, 0.5 * (flanks_->before(i) + pressed_[i]), way_[i], dt_, from, to);
       if (part_) part_->press(edge_[i], others - load.force);
     }
     force[k] = load.force - below;
@@ -206,6 +216,7 @@ void MillingProcess::book(const EdgeLoad& load, const Eigen::MatrixXd& state, co
   }
   if (part_) ledger_.part += part_->work();
   ledger_.cutting += load.work;
+  ledger_.ploughing += load.ploughed;
   ledger_.spindle += load.torque * (to.angle - from.angle);
   // A cutter that is fed along a mode whose shape changes there goes with that shape: the feed does that.
   ledger_.feed -= load.force.dot(to.axis - from.axis) + of_shift - of_modes;
@@ -252,6 +263,8 @@ ProcessStep MillingProcess::advance() {
   ProcessStep step;
   static_cast<EdgeLoad&>(step) =
       bear(shift, force_, [&](std::size_t k, const Sweep& sweep) { return layer_[k].erase(sweep); });
+  if (flanks_)
+    for (std::size_t i = 0; i < pressed_.size(); ++i) flanks_->note(i, way_of(i), pressed_[i]);
   step.unsettled = unsettled;
   step.time = time() + 0.5 * dt_;
   step.angle = motion_.steady() ? settings_.spindle * step.time
@@ -290,6 +303,7 @@ void MillingProcess::archive(Archive& archive) {
   }
   archive.number("milling/farthest", "m", farthest_);
   ledger_.archive(archive);
+  if (flanks_) flanks_->archive(archive);
   if (part_) part_->archive(archive);
   for (std::size_t k = 0; k < layer_.size(); ++k)
     layer_[k].archive(archive, fmt::format("milling/layer/{}/", k));

@@ -106,6 +106,10 @@ private:
   /// (6).
   Sweep in_material(std::size_t layer, std::size_t tooth, const std::array<CutterPlace, 2>& place,
                     double depth, const Sweep& sweep) const;
+  /// Of an edge, as the last question found it.
+  FlankTraces::Way way_of(std::size_t edge) const {
+    return {way_[edge].head<2>(), bite_[edge].begin, bite_[edge].end};
+  }
   /// Of the cutter relative to the part, m, at the machined side of each layer.
   PerLayer relative(const PerLayer& shift) const;
   /// m, where a mode would rest under forces.
@@ -132,8 +136,10 @@ private:
   std::vector<DexelLayer> layer_;
   std::vector<Bite> bite_; ///< [layer × tooth] of the last question
   std::vector<Vec3> way_;  ///< [layer × tooth] m, of the edge relative to the part
-  Eigen::MatrixXd state_;  ///< [2 × modes] (q, v/ω)
-  Eigen::MatrixXd shape_;  ///< [layers × modes] –, in this step
+  std::optional<FlankTraces> flanks_;
+  std::vector<double> pressed_; ///< [layer × tooth] m², under flanks at the end of the step
+  Eigen::MatrixXd state_;       ///< [2 × modes] (q, v/ω)
+  Eigen::MatrixXd shape_;       ///< [layers × modes] –, in this step
   std::unique_ptr<FlexiblePart> part_;
   std::vector<Vec3> edge_; ///< [layer × tooth] m, of the material, where the edge is in the middle of its way
   PerLayer shift_;         ///< m, at the begin of the step

@@ -52,6 +52,8 @@ Monodromy::Monodromy(const MillingCut& cut, std::span<const Mode> modes, double 
   d_ = qr.rank();
   basis_ = Eigen::MatrixXd(qr.householderQ()).leftCols(d_);
   shape_ = basis_.transpose() * participation_.topRows<2>();
+  ploughs_ = cut.flank.presses();
+  each_ = ploughs_ ? 2 * d_ : d_;
   states_ = 2 * m;
   divide(cut, spindle, depth);
   couple(cut, spindle, depth);
@@ -70,8 +72,11 @@ void Monodromy::divide(const MillingCut& cut, double spindle, double depth) {
   for (std::size_t b = 1; b < breaks.size(); ++b) {
     const double from = breaks[b - 1], to = breaks[b], middle = 0.5 * (from + to);
     bool cutting = false;
-    for (std::size_t j = 0; j < cut.cutter.teeth(); ++j)
-      cutting |= !directional_factors(cut, j, middle - cut.cutter.behind(j), depth, spindle).isZero(0.0);
+    for (std::size_t j = 0; j < cut.cutter.teeth(); ++j) {
+      const double tip = middle - cut.cutter.behind(j);
+      cutting |= !directional_factors(cut, j, tip, depth, spindle).isZero(0.0) ||
+                 !damping_factors(cut, j, tip, depth, spindle).isZero(0.0);
+    }
     const double pieces = std::max((to - from) / widest, fastest_ * (to - from) / spindle / longest);
     const int count = cutting ? static_cast<int>(std::ceil(pieces)) : 1;
     for (int k = 0; k < std::max(count, 1); ++k) {
@@ -80,7 +85,7 @@ void Monodromy::divide(const MillingCut& cut, double spindle, double depth) {
       element.begin = from / spindle + k * element.length;
       element.cutting = cutting;
       element.first = displacements_;
-      if (cutting) displacements_ += nodes * d_;
+      if (cutting) displacements_ += nodes * each_;
       elements_.push_back(std::move(element));
     }
   }
@@ -109,19 +114,22 @@ void Monodromy::couple(const MillingCut& cut, double spindle, double depth) {
     if (!element.cutting) continue;
     for (std::size_t k = 0; k < rule.node.size(); ++k) {
       const double time = element.begin + rule.node[k] * element.length;
-      Eigen::MatrixXd all = Eigen::MatrixXd::Zero(participation_.cols(), d_);
+      Eigen::MatrixXd all = Eigen::MatrixXd::Zero(participation_.cols(), each_);
       for (std::size_t j = 0; j < cutter.teeth(); ++j) {
         const double tip = spindle * time - cutter.behind(j);
+        if (ploughs_)
+          all.rightCols(d_) +=
+              fastest_ * participation_.transpose() * damping_factors(cut, j, tip, depth, spindle) * basis_;
         const DirectionalFactors w = directional_factors(cut, j, tip, depth, spindle);
         if (w.isZero(0.0)) continue;
         const Eigen::MatrixXd modal = participation_.transpose() * w * basis_;
-        all += modal;
+        all.leftCols(d_) += modal;
         if (even && !element.delayed.empty() && element.delayed.back().node == k) {
           element.delayed.back().factors += modal;
           continue;
         }
         if (even) {
-          element.delayed.push_back({k, element.first + size_of(k) * d_, true, {}, modal});
+          element.delayed.push_back({k, element.first + size_of(k) * each_, true, {}, modal});
           continue;
         }
         double then = time - cutter.pitch_before(j) / spindle;
@@ -150,18 +158,24 @@ void Monodromy::solve(Element& element, std::span<const Mode> modes) {
   if (!element.cutting) return;
   const GaussRule &rule = gauss_rule(nodes), &fine = gauss_rule(16);
   element.shift = Eigen::MatrixXd::Zero(states_, m * nodes);
-  element.from_states = Eigen::MatrixXd::Zero(nodes * d_, states_);
-  // [displacement × modal force]: what a force at one node does at the others.
-  Eigen::MatrixXd reach = Eigen::MatrixXd::Zero(nodes * d_, m * nodes);
+  element.from_states = Eigen::MatrixXd::Zero(nodes * each_, states_);
+  // [unknown × modal force]: what a force at one node does at the others.
+  Eigen::MatrixXd reach = Eigen::MatrixXd::Zero(nodes * each_, m * nodes);
   std::vector<std::vector<double>> shape(fine.node.size());
   for (int k = 0; k <= nodes; ++k) { // the last one is the end of the element
     const double x = k < nodes ? rule.node[index_of(k)] : 1.0, length = x * element.length;
     for (std::size_t q = 0; q < fine.node.size(); ++q) shape[q] = lagrange(rule.node, x * fine.node[q]);
     for (Index i = 0; i < m; ++i) {
+      const double faster = modes[index_of(i)].omega() / fastest_;
+      // What a state (q, v/ω) of the mode is in unknowns of the node.
+      const auto at_node = [&](auto&& target, const auto& state) {
+        target.topRows(d_) = shape_.col(i) * state[0];
+        if (ploughs_) target.bottomRows(d_) = shape_.col(i) * (faster * state[1]);
+      };
       if (k < nodes) {
         const FreeMotion free(modes[index_of(i)], length);
-        element.from_states.block(k * d_, i, d_, 1) = shape_.col(i) * free.of_state(0, 0);
-        element.from_states.block(k * d_, m + i, d_, 1) = shape_.col(i) * free.of_state(0, 1);
+        at_node(element.from_states.block(k * each_, i, each_, 1), free.of_state.col(0));
+        at_node(element.from_states.block(k * each_, m + i, each_, 1), free.of_state.col(1));
       }
       Eigen::Matrix<double, 2, nodes> response = Eigen::Matrix<double, 2, nodes>::Zero();
       for (std::size_t q = 0; q < fine.node.size(); ++q) {
@@ -171,7 +185,7 @@ void Monodromy::solve(Element& element, std::span<const Mode> modes) {
       }
       for (int l = 0; l < nodes; ++l) {
         if (k < nodes)
-          reach.block(k * d_, l * m + i, d_, 1) = shape_.col(i) * response(0, l);
+          at_node(reach.block(k * each_, l * m + i, each_, 1), response.col(l));
         else {
           element.shift(i, l * m + i) = response(0, l);
           element.shift(m + i, l * m + i) = response(1, l);
@@ -179,9 +193,9 @@ void Monodromy::solve(Element& element, std::span<const Mode> modes) {
       }
     }
   }
-  Eigen::MatrixXd system = Eigen::MatrixXd::Identity(nodes * d_, nodes * d_);
+  Eigen::MatrixXd system = Eigen::MatrixXd::Identity(nodes * each_, nodes * each_);
   for (int l = 0; l < nodes; ++l)
-    system.middleCols(l * d_, d_) -= reach.middleCols(l * m, m) * element.factors[index_of(l)];
+    system.middleCols(l * each_, each_) -= reach.middleCols(l * m, m) * element.factors[index_of(l)];
   const Eigen::PartialPivLU<Eigen::MatrixXd> lu(system);
   element.from_states = lu.solve(element.from_states).eval();
   element.from_delayed = lu.solve(reach);
@@ -207,13 +221,13 @@ void Monodromy::march(const Eigen::VectorXd& from, Eigen::VectorXd& to, const Se
       else
         for (int l = 0; l < nodes; ++l)
           target.noalias() -=
-              delayed.factors * (delayed.weights[index_of(l)] * period.segment(at + l * d_, d_));
+              delayed.factors * (delayed.weights[index_of(l)] * period.segment(at + l * each_, d_));
     }
-    auto u = to.segment(states_ + element.first, nodes * d_);
+    auto u = to.segment(states_ + element.first, nodes * each_);
     u.noalias() = element.from_states * state;
     u.noalias() += element.from_delayed * force;
     for (int l = 0; l < nodes; ++l)
-      force.segment(l * m, m).noalias() += element.factors[index_of(l)] * u.segment(l * d_, d_);
+      force.segment(l * m, m).noalias() += element.factors[index_of(l)] * u.segment(l * each_, each_);
     see(element, force);
     state = (element.move * state + element.shift * force).eval();
   }

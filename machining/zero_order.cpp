@@ -13,17 +13,18 @@ namespace cnem::machining {
 namespace {
 
 using Complex = std::complex<double>;
+using ComplexFactors = Eigen::Matrix<Complex, 3, 2>;
 using EigenvaluePair = std::array<Complex, 2>;
 
-/// Eigenvalues of mean factors times receptance, of which the directions across the axis count.
-EigenvaluePair eigenvalues(const DirectionalFactors& factors, std::span<const Mode> modes, double omega) {
+/// Eigenvalues of factors times receptance, of which the directions across the axis count.
+EigenvaluePair eigenvalues(const ComplexFactors& factors, std::span<const Mode> modes, double omega) {
   // u = Φ F and F = a W u have the eigenvalues of (Φ W), which is 2 × 2.
   Eigen::Matrix<Complex, 2, 2> product = Eigen::Matrix<Complex, 2, 2>::Zero();
   for (const Mode& mode : modes) {
     const double r = omega / mode.omega();
     const Vec3 p = mode.participation();
     const Complex receptance = 1.0 / (mode.stiffness * Complex(1.0 - r * r, 2.0 * mode.damping * r));
-    product += receptance * (p.head<2>() * (p.transpose() * factors)).cast<Complex>();
+    product += receptance * (p.head<2>().cast<Complex>() * (p.transpose().cast<Complex>() * factors));
   }
   const Complex half = 0.5 * (product(0, 0) + product(1, 1));
   const Complex root = std::sqrt(half * half - product(0, 0) * product(1, 1) + product(0, 1) * product(1, 0));
@@ -38,9 +39,9 @@ EigenvaluePair followed(EigenvaluePair now, const EigenvaluePair& before) {
   return now;
 }
 
-/// Calls visit(ω, λ) for both eigenvalues along the frequencies at which modes may chatter.
-template<class Visit>
-void scan(const DirectionalFactors& factors, std::span<const Mode> modes, double step_bound, Visit&& visit) {
+/// Calls visit(ω, λ) for both eigenvalues of factors(ω) along the frequencies at which modes may chatter.
+template<class Factors, class Visit>
+void scan(const Factors& factors, std::span<const Mode> modes, double step_bound, Visit&& visit) {
   double low = infinite, high = 0.0, step = step_bound;
   for (const Mode& mode : modes) {
     low = std::min(low, mode.omega());
@@ -50,10 +51,10 @@ void scan(const DirectionalFactors& factors, std::span<const Mode> modes, double
   low *= 0.2;
   high *= 2.5;
   const auto count = static_cast<std::int64_t>(std::ceil((high - low) / step));
-  EigenvaluePair value = eigenvalues(factors, modes, low);
+  EigenvaluePair value = eigenvalues(factors(low), modes, low);
   for (std::int64_t i = 0; i <= count; ++i) {
     const double omega = low + (high - low) * static_cast<double>(i) / static_cast<double>(count);
-    value = followed(eigenvalues(factors, modes, omega), value);
+    value = followed(eigenvalues(factors(omega), modes, omega), value);
     visit(omega, value);
   }
 }
@@ -62,11 +63,16 @@ void scan(const DirectionalFactors& factors, std::span<const Mode> modes, double
 
 std::optional<ZeroOrderLimit> zero_order_limit(const MillingCut& cut, std::span<const Mode> modes,
                                                double spindle) {
-  const DirectionalFactors factors = mean_factors(cut, spindle);
+  const DirectionalFactors mean = mean_factors(cut, spindle), damping = mean_damping(cut, spindle);
   const auto regeneration = [&](double omega) {
     Complex sum = 0.0;
     for (const double pitch : cut.cutter.pitch) sum += 1.0 - std::exp(Complex(0.0, -omega * pitch / spindle));
     return sum / static_cast<double>(cut.cutter.teeth());
+  };
+  const bool ploughs = cut.flank.presses();
+  const auto factors = [&](double omega) -> ComplexFactors { // times regeneration
+    if (!ploughs) return mean.cast<Complex>();
+    return mean.cast<Complex>() + damping.cast<Complex>() * (Complex(0.0, omega) / regeneration(omega));
   };
   std::optional<ZeroOrderLimit> least;
   double before = 0.0;
@@ -82,12 +88,14 @@ std::optional<ZeroOrderLimit> zero_order_limit(const MillingCut& cut, std::span<
       Complex at = at_high;
       for (int i = 0; i < 60 && high - low > 1e-13 * high; ++i) {
         const double middle = 0.5 * (low + high);
-        const EigenvaluePair pair = eigenvalues(factors, modes, middle);
+        const EigenvaluePair pair = eigenvalues(factors(middle), modes, middle);
         const std::size_t near = std::abs(pair[0] - value[k]) <= std::abs(pair[1] - value[k]) ? 0 : 1;
         at = pair[near] * regeneration(middle);
         ((at.imag() > 0.0) == (at_low.imag() > 0.0) ? low : high) = middle;
       }
-      if (at.real() > 0.0 && (!least || 1.0 / at.real() < least->depth))
+      constexpr double rounding = 1e-12; // modes along one line have one eigenvalue, the other is 0
+      const double other = std::abs(value[1 - k] * regeneration(high));
+      if (at.real() > rounding * other && (!least || 1.0 / at.real() < least->depth))
         least = ZeroOrderLimit{1.0 / at.real(), high};
     }
     before = omega;
@@ -99,11 +107,13 @@ std::optional<ZeroOrderLimit> zero_order_limit(const MillingCut& cut, std::span<
 std::optional<ZeroOrderLimit> zero_order_minimum(const MillingCut& cut, std::span<const Mode> modes,
                                                  double spindle) {
   std::optional<ZeroOrderLimit> least;
-  scan(mean_factors(cut, spindle), modes, infinite, [&](double omega, const EigenvaluePair& value) {
-    for (const Complex& lambda : value)
-      if (lambda.real() > 0.0 && (!least || 0.5 / lambda.real() < least->depth))
-        least = ZeroOrderLimit{0.5 / lambda.real(), omega};
-  });
+  const ComplexFactors mean = mean_factors(cut, spindle).cast<Complex>();
+  scan([&](double) -> const ComplexFactors& { return mean; }, modes, infinite,
+       [&](double omega, const EigenvaluePair& value) {
+         for (const Complex& lambda : value)
+           if (lambda.real() > 0.0 && (!least || 0.5 / lambda.real() < least->depth))
+             least = ZeroOrderLimit{0.5 / lambda.real(), omega};
+       });
   return least;
 }
 

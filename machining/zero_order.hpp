@@ -19,7 +19,7 @@ struct ZeroOrderLimit {
 std::optional<ZeroOrderLimit> zero_order_limit(const MillingCut& cut, std::span<const Mode> modes,
                                                double spindle);
 
-/// The smallest of all speeds: 1/(2 max Re λ), of teeth at equal pitches.
+/// The smallest of all speeds: 1/(2 max Re λ), of teeth at equal pitches whose flanks are free.
 std::optional<ZeroOrderLimit> zero_order_minimum(const MillingCut& cut, std::span<const Mode> modes,
                                                  double spindle);
 

@@ -122,6 +122,25 @@ double deepest(const input::Case& input, const std::vector<machining::Mode>& mod
 
 namespace {
 
+/// Lobes take what flanks do for a damping, which waves have to be long for.
+std::vector<std::string> flank_doubts(const input::Case& input, const std::vector<input::NamedMode>& modes) {
+  const input::MachiningCase& milling = *input.machining;
+  std::vector<std::string> doubts;
+  const double slowest =
+      input.analysis.type == input::Analysis::Type::stability ? milling.stability.speed_from : infinite;
+  for (const input::NamedMode& mode : modes)
+    if (const double wave = slowest * milling.cut.cutter.radius() / mode.omega();
+        milling.cut.flank.land > wave)
+      doubts.push_back(
+          input
+              .error("cutting.flank.land",
+                     fmt::format("at {} mode {} leaves waves of {} a radian, expected longer ones than the "
+                                 "land: its damping is taken for that of long waves",
+                                 speed_text(slowest), mode.name, si_format(wave, "m")))
+              .what());
+  return doubts;
+}
+
 /// What of a cut lies beyond the range of its law.
 std::vector<std::string> law_doubts(const input::Case& input, double thickest) {
   const input::MachiningCase& milling = *input.machining;
@@ -171,6 +190,7 @@ std::vector<std::string> milling_doubts(const input::Case& input,
                    "below milling.feed")
             .what());
   for (std::string& doubt : law_doubts(input, thickest)) doubts.push_back(std::move(doubt));
+  for (std::string& doubt : flank_doubts(input, modes)) doubts.push_back(std::move(doubt));
   if (input.analysis.type != input::Analysis::Type::milling) return doubts;
   constexpr double few = 5.0, periods = 20.0;
   if (milling.dexels.pitch > milling.cut.feed / few)
@@ -243,6 +263,11 @@ Checked check_machining(const input::Case& input) {
           "{}, teeth pass at {}, edges move at {}", speed_text(milling.speed),
           si_format(milling.speed * static_cast<double>(cutter.teeth()) / (2.0 * std::numbers::pi), "Hz"),
           si_format(milling.speed * cutter.radius(), "m/s")));
+  if (const machining::Flank& flank = milling.cut.flank; flank.presses())
+    add("flanks",
+        fmt::format("a land of {} ploughs, {} of clearance, {} of recovery", si_format(flank.land, "m"),
+                    results::number_format(flank.clearance / degree) + " deg",
+                    si_format(flank.recovery, "m")));
   describe(input, checked);
   add("modes", fmt::format("{}", modes.size()));
   if (input.analysis.type == input::Analysis::Type::milling) {

@@ -32,8 +32,8 @@ constexpr std::array shared{"title",
 /// Tables of milling, of structures whose modes are sought, and of both, with all that lies below them.
 constexpr std::array structure_tables{"shaft", "removal"};
 constexpr std::array common_tables{"part"};
-constexpr std::array milling_tables{"cutter", "cutting.law", "cutting.forces", "milling",
-                                    "modes",  "stability",   "dexels"};
+constexpr std::array milling_tables{"cutter",  "cutting.law", "cutting.forces", "cutting.flank",
+                                    "milling", "modes",       "stability",      "dexels"};
 
 constexpr Range steep{.low = -60.0 * std::numbers::pi / 180.0, .high = 60.0 * std::numbers::pi / 180.0};
 
@@ -93,6 +93,37 @@ void add_law(Keys& k) {
         {"speed", d::velocity, "Of the edge.", "\"1 5 m/s\""},
         {"rake", d::angle, "Of the edge, held against `cutter.rake`.", "\"0 10 deg\""}})
     k.add(std::string("cutting.forces.range.") + name, quantities, meaning).unit(dimension).example(example);
+}
+
+void add_flank(Keys& k) {
+  k.add("cutting.flank", table,
+        "A land behind the edge that ploughs: it is part of a circle about the axis of the cutter, and what "
+        "it presses of the surface that the edge has just made makes a force. Vibrations are damped by it. "
+        "Without it flanks are free.");
+  k.add("cutting.flank.land", quantity, "Width of the land, along the way of the edge.")
+      .unit(d::length)
+      .in(positive)
+      .required()
+      .example("\"80 um\"");
+  k.add("cutting.flank.clearance", quantity, "By which the land leaves the circle. 0: it is worn.")
+      .unit(d::angle)
+      .in({.low = 0.0, .high = std::numbers::pi / 4.0})
+      .fallback("\"0 deg\"");
+  k.add("cutting.flank.recovery", quantity,
+        "By how much the surface springs back behind the edge: as deep a steady land presses, and as much "
+        "has to be left of the contact for vibrations to be damped both ways.")
+      .unit(d::length)
+      .in(not_negative)
+      .fallback("\"0 m\"");
+  k.add("cutting.flank.specific_force", quantity,
+        "Force normal to the land per volume that is pressed in (Wu 1989).")
+      .unit(d::force_per_volume)
+      .in(positive)
+      .required()
+      .example("\"40 kN/mm^3\"");
+  k.add("cutting.flank.friction", quantity, "Of that force, against the motion of the edge.")
+      .in(not_negative)
+      .fallback("0.3");
 }
 
 void add_passes(Keys& k) {
@@ -267,6 +298,7 @@ void add_stability(Keys& k) {
 void add_machining(Keys& k) {
   add_cutter(k);
   add_law(k);
+  add_flank(k);
   add_milling(k);
   add_modes(k);
   add_shapes(k);

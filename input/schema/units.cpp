@@ -81,6 +81,7 @@ const DimensionName named_dimensions[] = {
     {dimension::effusivity, "an effusivity", "W s^0.5/(m2 K)", "14000 W s^0.5/(m2 K)"},
     {dimension::force, "a force", "N", "10 N"},
     {dimension::force_per_length, "a force per length", "N/m", "10 N/m"},
+    {dimension::force_per_volume, "a force per volume", "N/m3", "40 kN/mm^3"},
     {dimension::compliance, "a compliance", "m/N", "0.01 mm/kN"},
     {dimension::mass, "a mass", "kg", "1 kg"},
     {dimension::mass_per_length, "a mass per length", "kg/m", "1 kg/m"},

@@ -42,6 +42,7 @@ inline constexpr Dimension mass = Dimension::of(0, 1, 0);
 inline constexpr Dimension mass_per_length = Dimension::of(-1, 1, 0);
 inline constexpr Dimension force = Dimension::of(1, 1, -2);
 inline constexpr Dimension force_per_length = Dimension::of(0, 1, -2);
+inline constexpr Dimension force_per_volume = Dimension::of(-2, 1, -2);
 inline constexpr Dimension compliance = Dimension::of(0, -1, 2);
 inline constexpr Dimension effusivity{{0, 2, -5, -2, 0}};
 } // namespace dimension
