@@ -61,7 +61,8 @@ std::vector<std::vector<SimplexIndex>> sets_around(const Cloud<3>& cloud, const 
   return sets;
 }
 
-/// Moves the doubles apart: against the mean normal of the new facets at each, within its other facets.
+/// Moves the doubles apart: against the mean normal of the new facets at each, within its other facets. Where
+/// these leave no way, as on a rough surface, within those of plane pieces alone.
 void set_apart(WorkingBody& body, std::size_t first_new, const std::vector<NodeIndex>& moved, double gap,
                const BoundaryPlanes& planes) {
   const Cloud<3>& cloud = body.cloud();
@@ -78,13 +79,16 @@ void set_apart(WorkingBody& body, std::size_t first_new, const std::vector<NodeI
   }
   std::vector<Vec3> place;
   for (const NodeIndex i : moved) {
-    Vec3 way = normal[i].norm() > 0.0 ? Vec3(-normal[i].normalized()) : Vec3::Zero();
+    const Vec3 straight = normal[i].norm() > 0.0 ? Vec3(-normal[i].normalized()) : Vec3::Zero();
+    Vec3 way = straight;
     constexpr int times = 3; // where facets meet at an angle
     for (int n = 0; n < times; ++n)
       for (const CloudFacetIndex f : kept[i]) {
         const Vec3 other = area_normal<3>(corners_of<3>(cloud.facets[f], cloud.position)).normalized();
         way -= other * other.dot(way);
       }
+    constexpr double least = 0.1;
+    if (way.norm() < least) way = straight;
     place.push_back(body.at(i) + 0.5 * gap * body.spacing(i) * planes.keep(kept[i], way));
   }
   for (std::size_t n = 0; n < moved.size(); ++n) body.place(moved[n], place[n]);
@@ -156,7 +160,7 @@ void separate(WorkingBody& body, const SpaceStructure& structure, const Separati
   if (part.empty()) return;
   const Tetrahedra& mesh = structure.mesh;
   const Cloud<3> before = body.cloud(); // whose volumes share matter out
-  const BoundaryPlanes planes(before);
+  const BoundaryPlanes planes(before, Plane::piece);
   smooth_cut(body, structure, part, planes);
 
   Doubles corner = mesh.node;
