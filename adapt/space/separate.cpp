@@ -125,6 +125,13 @@ void smooth_cut(WorkingBody& body, const SpaceStructure& structure, const Parts&
   std::vector<double> least; // volumes that tetrahedra keep, m³
   constexpr double most_lost = 0.7;
   for (const auto& node : mesh.node) least.push_back((1.0 - most_lost) * volume_of(cloud, node));
+  const IndexedVector<NodeIndex, Vec3> start = cloud.position;
+  constexpr double farthest_off = 0.01; // how far nodes may leave their facets, which the tools are beside
+  const auto off = [&](NodeIndex i, const Vec3& x) {
+    double most = 0.0;
+    for (const Vec3& normal : kept[i]) most = std::max(most, std::abs(normal.dot(x - start[i])));
+    return most;
+  };
   constexpr int times = 5;
   for (int n = 0; n < times; ++n)
     for (const NodeIndex i : body.nodes()) {
@@ -142,7 +149,9 @@ void smooth_cut(WorkingBody& body, const SpaceStructure& structure, const Parts&
       constexpr int projections = 3;
       for (int m = 0; m < projections; ++m)
         for (const Vec3& normal : kept[i]) way -= normal * normal.dot(way);
-      body.place(i, from + planes.keep(i, way));
+      const Vec3 to = from + planes.keep(i, way);
+      if (off(i, to) > farthest_off * body.spacing(i)) continue;
+      body.place(i, to);
       for (const SimplexIndex t : structure.tetrahedra.of(i))
         if (volume_of(cloud, mesh.node[t]) < least[index_of(t)]) {
           body.place(i, from);

@@ -142,6 +142,12 @@ TEST(Separate, faces_stand_apart_where_they_meet_a_rough_surface) {
         nearest = std::min(nearest, (cloud.position[k] - cloud.position[as<NodeIndex>(i)]).norm());
     EXPECT_GT(nearest, 0.8e-4) << "gaps are 1e-4 wide, both sides have gone";
   }
+  for (const Facet<3>& facet :
+       sheet.block.cloud.facets) { // a cut is smoothed along the surface, not out of it
+    const auto x = corners_of<3>(facet, sheet.block.cloud.position);
+    for (const NodeIndex i : facet.node)
+      EXPECT_LT(std::abs(area_normal<3>(x).normalized().dot(cloud.position[i] - x[0])), 0.011 * 0.1);
+  }
   EXPECT_NO_THROW(voronoi::recover_boundary(cloud));
 }
 
