@@ -12,12 +12,17 @@ namespace cnem::adapt {
 /// apart are those of one plane.
 Vec3 within_planes(std::span<const Vec3> normals, const Vec3& way);
 
-/// Which facets of a body are parts of planes: another of their piece beside them has the same normal to
-/// rounding. Facets of curved pieces are none. Keeps what it needs of the cloud as it is now. O(F log F).
-/// Throws GeometryError as voronoi::surface_edges() does.
+/// Which facets count as parts of planes.
+enum class Plane {
+  beside, ///< another of their piece beside them has the same normal to rounding
+  piece,  ///< all of their piece have; the halves of a facet that was split do not make a plane
+};
+
+/// Which facets of a body are parts of planes. Facets of curved pieces are none. Keeps what it needs of the
+/// cloud as it is now. O(F log F). Throws GeometryError as voronoi::surface_edges() does.
 class BoundaryPlanes {
 public:
-  explicit BoundaryPlanes(const Cloud<3>& cloud);
+  explicit BoundaryPlanes(const Cloud<3>& cloud, Plane plane = Plane::beside);
 
   /// What of a way leaves a node on the planes that its facets are of.
   Vec3 keep(NodeIndex node, const Vec3& way) const { return keep(around_.of(node), way); }

@@ -61,7 +61,8 @@ std::vector<std::vector<SimplexIndex>> sets_around(const Cloud<3>& cloud, const 
   return sets;
 }
 
-/// Moves the doubles apart: against the mean normal of the new facets at each, within its other facets.
+/// Moves the doubles apart: against the mean normal of the new facets at each, within its other facets. Where
+/// these leave no way, as on a rough surface, within those of plane pieces alone.
 void set_apart(WorkingBody& body, std::size_t first_new, const std::vector<NodeIndex>& moved, double gap,
                const BoundaryPlanes& planes) {
   const Cloud<3>& cloud = body.cloud();
@@ -78,13 +79,16 @@ void set_apart(WorkingBody& body, std::size_t first_new, const std::vector<NodeI
   }
   std::vector<Vec3> place;
   for (const NodeIndex i : moved) {
-    Vec3 way = normal[i].norm() > 0.0 ? Vec3(-normal[i].normalized()) : Vec3::Zero();
+    const Vec3 straight = normal[i].norm() > 0.0 ? Vec3(-normal[i].normalized()) : Vec3::Zero();
+    Vec3 way = straight;
     constexpr int times = 3; // where facets meet at an angle
     for (int n = 0; n < times; ++n)
       for (const CloudFacetIndex f : kept[i]) {
         const Vec3 other = area_normal<3>(corners_of<3>(cloud.facets[f], cloud.position)).normalized();
         way -= other * other.dot(way);
       }
+    constexpr double least = 0.1;
+    if (way.norm() < least) way = straight;
     place.push_back(body.at(i) + 0.5 * gap * body.spacing(i) * planes.keep(kept[i], way));
   }
   for (std::size_t n = 0; n < moved.size(); ++n) body.place(moved[n], place[n]);
@@ -121,6 +125,13 @@ void smooth_cut(WorkingBody& body, const SpaceStructure& structure, const Parts&
   std::vector<double> least; // volumes that tetrahedra keep, m³
   constexpr double most_lost = 0.7;
   for (const auto& node : mesh.node) least.push_back((1.0 - most_lost) * volume_of(cloud, node));
+  const IndexedVector<NodeIndex, Vec3> start = cloud.position;
+  constexpr double farthest_off = 0.01; // how far nodes may leave their facets, which the tools are beside
+  const auto off = [&](NodeIndex i, const Vec3& x) {
+    double most = 0.0;
+    for (const Vec3& normal : kept[i]) most = std::max(most, std::abs(normal.dot(x - start[i])));
+    return most;
+  };
   constexpr int times = 5;
   for (int n = 0; n < times; ++n)
     for (const NodeIndex i : body.nodes()) {
@@ -138,7 +149,9 @@ void smooth_cut(WorkingBody& body, const SpaceStructure& structure, const Parts&
       constexpr int projections = 3;
       for (int m = 0; m < projections; ++m)
         for (const Vec3& normal : kept[i]) way -= normal * normal.dot(way);
-      body.place(i, from + planes.keep(i, way));
+      const Vec3 to = from + planes.keep(i, way);
+      if (off(i, to) > farthest_off * body.spacing(i)) continue;
+      body.place(i, to);
       for (const SimplexIndex t : structure.tetrahedra.of(i))
         if (volume_of(cloud, mesh.node[t]) < least[index_of(t)]) {
           body.place(i, from);
@@ -156,7 +169,7 @@ void separate(WorkingBody& body, const SpaceStructure& structure, const Separati
   if (part.empty()) return;
   const Tetrahedra& mesh = structure.mesh;
   const Cloud<3> before = body.cloud(); // whose volumes share matter out
-  const BoundaryPlanes planes(before);
+  const BoundaryPlanes planes(before, Plane::piece);
   smooth_cut(body, structure, part, planes);
 
   Doubles corner = mesh.node;

@@ -41,5 +41,26 @@ TEST(BoundaryPlanes, of_a_cube_are_its_faces_and_of_a_ball_none) {
   for (const auto& facet : shell.facets) EXPECT_EQ(none.keep(facet.node[0], way), way);
 }
 
+TEST(BoundaryPlanes, of_pieces_are_those_that_are_plane_as_a_whole) {
+  Cloud<3> cube = testing::unrecovered({.shape = testing::SpaceShape::cube, .cells = 4});
+  PieceIndex top = PieceIndex::none;
+  for (const auto& facet : cube.facets) {
+    const auto x = corners_of<3>(facet, cube.position);
+    if (x[0].z() == 1.0 && x[1].z() == 1.0 && x[2].z() == 1.0) top = facet.piece;
+  }
+  for (Vec3& x : cube.position) // a step along a line of nodes: both sides of it are plane
+    if (x.z() == 1.0) x.z() += 0.1 * std::max(0.0, x.x() - 0.5);
+  const BoundaryPlanes beside(cube), whole(cube, Plane::piece);
+  for (const auto& facet : cube.facets) {
+    if (facet.piece != top) continue;
+    for (const NodeIndex i : facet.node) {
+      const Vec3& x = cube.position[i];
+      if (x.x() == 0.0 || x.x() == 1.0 || x.y() == 0.0 || x.y() == 1.0) continue;
+      EXPECT_EQ(whole.keep(i, way), way);
+      EXPECT_NE(beside.keep(i, way), way);
+    }
+  }
+}
+
 } // namespace
 } // namespace cnem::adapt

@@ -21,9 +21,10 @@ struct PartingBody {
   SpaceStructure structure;
   WorkingBody body;
 
-  PartingBody(const Vec3& size, const std::array<int, 3>& count,
-              const std::function<double(const Vec3&)>& broken)
-      : block(clouds::tetrahedral_block(size, count)),
+  PartingBody(
+      const Vec3& size, const std::array<int, 3>& count, const std::function<double(const Vec3&)>& broken,
+      const std::function<Vec3(const Vec3&)>& place = [](const Vec3& x) { return x; })
+      : block(clouds::tetrahedral_block(size, count, place)),
         structure(structure_of(block.cloud, voronoi::connected(block.cloud, block.tetrahedra))),
         body(block.cloud, properties(broken)) {}
 
@@ -114,6 +115,40 @@ TEST(Separate, round_slug_leaves_a_sheet) {
     if (band(sheet.block.cloud.position[i]) == 0.0) {
       EXPECT_EQ(sheet.body.at(i), sheet.block.cloud.position[i]);
     }
+}
+
+// Each square of the top is plane, as the halves of a facet are that a pass has split, but not the top. The
+// cut has a step, at which one double has three squares.
+TEST(Separate, faces_stand_apart_where_they_meet_a_rough_surface) {
+  const auto step = [](const Vec3& x) {
+    const long i = std::lround(10.0 * x.x()), j = std::lround(10.0 * x.y());
+    return (i == 5 && j <= 5) || (i == 6 && j >= 5) ? 1.5 : 0.0;
+  };
+  PartingBody sheet({1, 1, 0.3}, {10, 10, 3}, step, [](const Vec3& x) {
+    const long i = std::lround(10.0 * x.x()), j = std::lround(10.0 * x.y());
+    const double rough = 0.02 * static_cast<double>(i % 2) + 0.03 * static_cast<double>(j % 2);
+    return Vec3(x.x(), x.y(), x.z() * (1.0 + rough));
+  });
+  PassReport report;
+  const Cloud<3>& cloud = sheet.body.cloud();
+  const std::size_t before = cloud.position.size();
+  separate(sheet.body, sheet.structure, {.piece = faces}, report);
+  EXPECT_EQ(report.cuts, 1);
+  ASSERT_GT(cloud.position.size(), before);
+  for (std::size_t i = before; i < cloud.position.size(); ++i) {
+    double nearest = 1.0;
+    for (const NodeIndex k : cloud.position.indices())
+      if (index_of(k) != i)
+        nearest = std::min(nearest, (cloud.position[k] - cloud.position[as<NodeIndex>(i)]).norm());
+    EXPECT_GT(nearest, 0.8e-4) << "gaps are 1e-4 wide, both sides have gone";
+  }
+  for (const Facet<3>& facet :
+       sheet.block.cloud.facets) { // a cut is smoothed along the surface, not out of it
+    const auto x = corners_of<3>(facet, sheet.block.cloud.position);
+    for (const NodeIndex i : facet.node)
+      EXPECT_LT(std::abs(area_normal<3>(x).normalized().dot(cloud.position[i] - x[0])), 0.011 * 0.1);
+  }
+  EXPECT_NO_THROW(voronoi::recover_boundary(cloud));
 }
 
 TEST(Separate, nothing_parts_where_a_ligament_is_whole_or_the_part_would_be_a_chip) {
