@@ -220,10 +220,16 @@ void read_machining(Setting& root, Case& result, Diagnostics& diagnostics) {
                     fmt::format("found {:g} m, expected less than the radius of the cutter, {:g} m",
                                 read.cut.feed, 0.5 * diameter));
   read_cutting_law(root, read, diagnostics);
-  if (const Setting* flank = root.find("cutting.flank"))
+  if (const Setting* flank = root.find("cutting.flank")) {
     read.cut.flank = {flank->get<double>("land"), flank->get<double>("clearance"),
                       flank->get<double>("recovery"), flank->get<double>("specific_force"),
                       flank->get<double>("friction")};
+    if (const Setting& land = *flank->find("land");
+        read.cut.flank.land > machining::widest_land * 0.5 * diameter)
+      diagnostics.add(Mistake::range, land.where, land.path,
+                      fmt::format("found {:g} m, expected at most half the radius of the cutter, {:g} m",
+                                  read.cut.flank.land, machining::widest_land * 0.5 * diameter));
+  }
   for (const Setting& table : root.entries("modes")) read.modes.push_back(read_mode(table, diagnostics));
   if (const Setting* modes = root.find("modes")) check_modes(*modes, read, diagnostics);
   if (const Setting* part = root.find("part")) {

@@ -13,10 +13,7 @@ namespace cnem::machining {
 namespace {
 
 int period_of(const Cutter& cutter, int steps) {
-  if (cutter.run_out > 0.0) return steps;
-  double angle = 0.0;
-  for (std::size_t k = 0; k < cutter.pattern(); ++k) angle += cutter.pitch[k];
-  const double samples = steps * angle / full_turn;
+  const double samples = steps * cutter.period(true) / full_turn;
   constexpr double whole = 1e-9;
   return std::abs(samples - std::round(samples)) < whole * steps ? static_cast<int>(std::lround(samples))
                                                                  : steps;

@@ -28,6 +28,10 @@ std::size_t Cutter::pattern() const {
   return n;
 }
 
+double Cutter::period(bool told_apart) const {
+  return told_apart && run_out > 0.0 ? full_turn : behind(pattern());
+}
+
 double Cutter::mean_radius(double from, double to) const {
   if (!(corner > 0.0)) return radius();
   // ∫ √(c² − (c − z)²) dz up to a height within the corner.

@@ -33,6 +33,8 @@ struct Cutter {
   double radius_of(std::size_t tooth) const;
   /// How many teeth there are before the pitches repeat themselves.
   std::size_t pattern() const;
+  /// rad, after which teeth stand as before, or, where run-out tells them apart, the same ones do.
+  double period(bool told_apart) const;
   /// m, mean radius of the edges between two heights; below the tip that of the tip.
   double mean_radius(double from, double to) const;
   /// m, length of the profile between two heights ≥ 0.

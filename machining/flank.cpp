@@ -9,9 +9,6 @@ namespace cnem::machining {
 
 namespace {
 
-/// Lands are a small part of a circle, rad.
-constexpr double widest = 0.5;
-
 /// ∫ max(0, e) over a length on which e goes linearly from a to b.
 double positive_part(double a, double b, double length) {
   if (a >= 0.0 && b >= 0.0) return 0.5 * (a + b) * length;
@@ -39,7 +36,7 @@ double Flank::damping(double rise, double speed) const {
 FlankTraces::FlankTraces(const Flank& flank, std::span<const double> radius, std::size_t teeth, double step)
     : flank_(flank), first_{0} {
   for (const double r : radius) {
-    const auto steps = static_cast<std::size_t>(std::ceil(std::min(flank.land / r, widest) / step));
+    const auto steps = static_cast<std::size_t>(std::ceil(std::min(flank.land / r, widest_land) / step));
     for (std::size_t j = 0; j < teeth; ++j) first_.push_back(first_.back() + steps);
   }
   way_.resize(first_.back());
@@ -49,7 +46,7 @@ FlankTraces::FlankTraces(const Flank& flank, std::span<const double> radius, std
 double FlankTraces::pressed(std::size_t edge, const Vec2& arm, const Way& last) const {
   const auto cut = [](const Way& way) { return way.begin < way.end; };
   if (!cut(last) && std::none_of(&way_[first_[edge]], &way_[first_[edge + 1] - 1] + 1, cut)) return 0.0;
-  const double radius = arm.norm(), end = std::min(flank_.land / radius, widest),
+  const double radius = arm.norm(), end = std::min(flank_.land / radius, widest_land),
                slope = std::tan(flank_.clearance);
   Vec2 newer = arm;
   double angle = 0.0, depth = flank_.recovery, sum = 0.0;

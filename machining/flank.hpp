@@ -10,6 +10,9 @@
 
 namespace cnem::machining {
 
+/// rad: lands are a small part of a circle. Near the tip of a ball, where they would not be, they end there.
+constexpr double widest_land = 0.5;
+
 /// A land behind the edge that is part of a circle about the axis of the cutter, but for its clearance.
 struct Flank {
   double land = 0.0;           ///< m behind the edge; 0: there is none

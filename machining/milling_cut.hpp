@@ -5,6 +5,7 @@
 #include "machining/flank.hpp"
 
 #include <Eigen/Core>
+#include <vector>
 
 namespace cnem::machining {
 
@@ -24,6 +25,13 @@ using DirectionalFactors = Eigen::Matrix<double, 3, 2>;
 /// stands out beyond the tooth before it. Negative where the tooth misses the cut.
 double steady_thickness(const MillingCut& cut, std::size_t tooth, double phi);
 
+/// rad, after which the factors below repeat themselves: run-out tells teeth apart where the law is not
+/// linear or flanks plough.
+double period_of(const MillingCut& cut);
+/// Angles within the engagement, in order, at which factors of a tooth have a jump or a kink: where it begins
+/// to miss the cut, and where its land begins to leave the surface.
+std::vector<double> changes_within(const MillingCut& cut, std::size_t tooth);
+
 /// Of all teeth where they cut, over the engagement, m; thinnest ≤ 0 where one misses the cut.
 struct SteadyChips {
   double thinnest = infinite, thickest = 0.0;
@@ -42,7 +50,10 @@ DirectionalFactors directional_factors(const MillingCut& cut, std::size_t tooth,
 /// run-out.
 double flank_rise(const MillingCut& cut, std::size_t tooth, double phi);
 
-/// Of flanks that plough: ∂F/∂u̇ of one tooth, as directional_factors(). N s/m
+/// m, the longest contact of a land over the engagement.
+double longest_contact(const MillingCut& cut);
+
+/// Of flanks that plough: ∂F/∂u̇ of one tooth, as directional_factors(); none where it misses the cut. N s/m
 DirectionalFactors damping_factors(const MillingCut& cut, std::size_t tooth, double tip, double depth,
                                    double spindle);
 /// Per depth, the mean over a turn of the sum over the teeth. N s/m²

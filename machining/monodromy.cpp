@@ -18,15 +18,20 @@ using Index = Eigen::Index;
 
 Index size_of(std::size_t n) { return static_cast<Index>(n); }
 
-/// Angles in [0, period) at which an edge of the cutter enters or leaves, tip or upper end, and 0.
+/// Angles in [0, period) at which an edge of the cutter enters or leaves, or its factors have a kink, tip or
+/// upper end, and 0.
 std::vector<double> break_points(const MillingCut& cut, double depth, double period) {
   std::vector<double> list{0.0};
-  for (std::size_t j = 0; j < cut.cutter.teeth(); ++j)
-    for (const double at : {cut.engagement.entry(cut.cutter), cut.engagement.exit(cut.cutter)})
+  for (std::size_t j = 0; j < cut.cutter.teeth(); ++j) {
+    std::vector<double> places = changes_within(cut, j);
+    places.push_back(cut.engagement.entry(cut.cutter));
+    places.push_back(cut.engagement.exit(cut.cutter));
+    for (const double at : places)
       for (const double lag : {0.0, cut.cutter.lag(depth)}) {
         const double angle = at + lag + cut.cutter.behind(j);
         list.push_back(angle - period * std::floor(angle / period));
       }
+  }
   std::sort(list.begin(), list.end());
   list.push_back(period);
   constexpr double same = 1e-10;
@@ -61,8 +66,7 @@ Monodromy::Monodromy(const MillingCut& cut, std::span<const Mode> modes, double 
 }
 
 void Monodromy::divide(const MillingCut& cut, double spindle, double depth) {
-  double angle = 0.0;
-  for (std::size_t j = 0; j < cut.cutter.pattern(); ++j) angle += cut.cutter.pitch[j];
+  const double angle = period_of(cut);
   period_ = angle / spindle;
   const std::vector<double> breaks = break_points(cut, depth, angle);
   // rad of the cutter, rad of the fastest mode; what a tooth cut before it lies in an earlier element.
@@ -94,7 +98,7 @@ void Monodromy::divide(const MillingCut& cut, double spindle, double depth) {
 void Monodromy::couple(const MillingCut& cut, double spindle, double depth) {
   const GaussRule& rule = gauss_rule(nodes);
   const Cutter& cutter = cut.cutter;
-  const bool even = cutter.pattern() == 1;
+  const bool even = period_of(cut) == cutter.pitch[0]; // what was cut before lies one period back
   // Where a time of this period or the one before falls: what cuts now was cut by another tooth then, so that
   // it lies in an element that cuts, but for rounding at its ends.
   const auto find = [&](double time) -> const Element& {

@@ -56,8 +56,8 @@ DepthLimit refined(const MillingCut& cut, std::span<const Mode> modes, double sp
 
 /// Of modes that nothing excites, over a period.
 double free_radius(const MillingCut& cut, std::span<const Mode> modes, double spindle) {
-  double angle = 0.0, most = 0.0;
-  for (std::size_t j = 0; j < cut.cutter.pattern(); ++j) angle += cut.cutter.pitch[j];
+  const double angle = period_of(cut);
+  double most = 0.0;
   for (const Mode& mode : modes)
     most = std::max(most, std::exp(-mode.damping * mode.omega() * angle / spindle));
   return most;

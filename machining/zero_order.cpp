@@ -70,10 +70,12 @@ std::optional<ZeroOrderLimit> zero_order_limit(const MillingCut& cut, std::span<
     return sum / static_cast<double>(cut.cutter.teeth());
   };
   const bool ploughs = cut.flank.presses();
-  const auto factors = [&](double omega) -> ComplexFactors { // times regeneration
+  // Where flanks damp, of the whole, which no regeneration brings to nothing; else of what it multiplies.
+  const auto factors = [&](double omega) -> ComplexFactors {
     if (!ploughs) return mean.cast<Complex>();
-    return mean.cast<Complex>() + damping.cast<Complex>() * (Complex(0.0, omega) / regeneration(omega));
+    return mean.cast<Complex>() * regeneration(omega) + damping.cast<Complex>() * Complex(0.0, omega);
   };
+  const auto scale = [&](double omega) { return ploughs ? Complex(1.0) : regeneration(omega); };
   std::optional<ZeroOrderLimit> least;
   double before = 0.0;
   EigenvaluePair value_before{};
@@ -81,8 +83,8 @@ std::optional<ZeroOrderLimit> zero_order_limit(const MillingCut& cut, std::span<
   scan(factors, modes, 0.05 / longest, [&](double omega, const EigenvaluePair& value) {
     for (std::size_t k = 0; before > 0.0 && k < 2; ++k) {
       double low = before, high = omega;
-      Complex at_low = value_before[k] * regeneration(low);
-      Complex at_high = value[k] * regeneration(high);
+      Complex at_low = value_before[k] * scale(low);
+      Complex at_high = value[k] * scale(high);
       if ((at_low.imag() > 0.0) == (at_high.imag() > 0.0)) continue;
       if (at_low.real() <= 0.0 && at_high.real() <= 0.0) continue;
       Complex at = at_high;
@@ -90,11 +92,11 @@ std::optional<ZeroOrderLimit> zero_order_limit(const MillingCut& cut, std::span<
         const double middle = 0.5 * (low + high);
         const EigenvaluePair pair = eigenvalues(factors(middle), modes, middle);
         const std::size_t near = std::abs(pair[0] - value[k]) <= std::abs(pair[1] - value[k]) ? 0 : 1;
-        at = pair[near] * regeneration(middle);
+        at = pair[near] * scale(middle);
         ((at.imag() > 0.0) == (at_low.imag() > 0.0) ? low : high) = middle;
       }
       constexpr double rounding = 1e-12; // modes along one line have one eigenvalue, the other is 0
-      const double other = std::abs(value[1 - k] * regeneration(high));
+      const double other = std::abs(value[1 - k] * scale(high));
       if (at.real() > rounding * other && (!least || 1.0 / at.real() < least->depth))
         least = ZeroOrderLimit{1.0 / at.real(), high};
     }

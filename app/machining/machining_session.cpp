@@ -122,22 +122,31 @@ double deepest(const input::Case& input, const std::vector<machining::Mode>& mod
 
 namespace {
 
-/// Lobes take what flanks do for a damping, which waves have to be long for.
+/// Flanks that touch nothing, or as deep as chips; lobes take what they do for a damping, which waves have to
+/// be long for.
 std::vector<std::string> flank_doubts(const input::Case& input, const std::vector<input::NamedMode>& modes) {
   const input::MachiningCase& milling = *input.machining;
   std::vector<std::string> doubts;
+  if (!milling.cut.flank.presses()) return doubts;
+  const double contact = machining::longest_contact(milling.cut);
+  const auto doubt = [&](const char* key, const std::string& what) {
+    doubts.push_back(input.error(key, what).what());
+  };
+  if (!(contact > 0.0))
+    doubt("cutting.flank.clearance",
+          "the land touches nothing in a steady cut, expected a recovery of the surface, or less clearance");
+  if (milling.cut.flank.recovery >= milling.cut.feed)
+    doubt("cutting.flank.recovery",
+          fmt::format("the surface springs back by {}, expected less than a chip, {}",
+                      si_format(milling.cut.flank.recovery, "m"), si_format(milling.cut.feed, "m")));
   const double slowest =
       input.analysis.type == input::Analysis::Type::stability ? milling.stability.speed_from : infinite;
   for (const input::NamedMode& mode : modes)
-    if (const double wave = slowest * milling.cut.cutter.radius() / mode.omega();
-        milling.cut.flank.land > wave)
-      doubts.push_back(
-          input
-              .error("cutting.flank.land",
-                     fmt::format("at {} mode {} leaves waves of {} a radian, expected longer ones than the "
-                                 "land: its damping is taken for that of long waves",
-                                 speed_text(slowest), mode.name, si_format(wave, "m")))
-              .what());
+    if (const double wave = slowest * milling.cut.cutter.radius() / mode.omega(); contact > wave)
+      doubt("cutting.flank.land",
+            fmt::format("at {} mode {} leaves waves of {} a radian, expected longer ones than the contact of "
+                        "the land, {}: its damping is taken for that of long waves",
+                        speed_text(slowest), mode.name, si_format(wave, "m"), si_format(contact, "m")));
   return doubts;
 }
 

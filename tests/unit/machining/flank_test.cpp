@@ -181,10 +181,44 @@ TEST(Flank, DexelsLoseTheirStabilityWhereFloquetDoes) {
   cut.feed = 1e-5;
   cut.flank = worn;
   const std::vector<Mode> modes = insperger_modes(1);
-  const double speed = 5000.0 * rpm, limit = depth_limit(cut, modes, speed, 2e-5, 5e-3)->depth;
-  EXPECT_GT(limit, 1.3 * 0.2603e-3) << "that of sharp edges";
-  EXPECT_LT(growth_of(cut, speed, 0.97 * limit), 0.9);
-  EXPECT_GT(growth_of(cut, speed, 1.03 * limit), 1.1);
+  const double speed = 5000.0 * rpm;
+  for (const bool clears : {false, true}) { // half of the land
+    if (clears) cut.flank = {.land = 100e-6, .clearance = 0.02, .recovery = 1e-6, .specific_force = 6e13};
+    ASSERT_TRUE(!clears || longest_contact(cut) < 0.6 * cut.flank.land);
+    const double limit = depth_limit(cut, modes, speed, 2e-5, 5e-3)->depth;
+    EXPECT_GT(limit, 1.2 * 0.2603e-3) << "that of sharp edges";
+    EXPECT_LT(growth_of(cut, speed, 0.97 * limit), 0.9) << clears;
+    EXPECT_GT(growth_of(cut, speed, 1.03 * limit), 1.1) << clears;
+  }
+}
+
+/// Two teeth of which run-out makes one stand out: it does not matter which is called the first.
+TEST(Flank, LimitsWithRunOutDoNotDependOnWhichToothIsTheFirst) {
+  MillingCut cut = insperger(up, 0.5);
+  cut.cutter.run_out = 20e-6;
+  cut.flank = {.land = 60e-6, .clearance = 0.008, .recovery = 0.1e-6, .specific_force = 4e13};
+  const std::vector<Mode> modes = insperger_modes(1);
+  const auto limit = [&](double angle, double helix) {
+    cut.cutter.helix = helix;
+    cut.cutter.run_out_angle = angle;
+    return depth_limit(cut, modes, 3000.0 * rpm, 2e-5, 5e-3)->depth;
+  };
+  for (const double helix : {0.0, 0.5}) {
+    const double first = limit(0.3, helix);
+    EXPECT_NEAR(limit(0.3 + std::numbers::pi, helix) / first, 1.0, 1e-6) << helix;
+    EXPECT_GT(std::abs(limit(1.8, helix) / first - 1.0), 1e-4) << "that it stands out elsewhere does";
+  }
+}
+
+/// A tooth that the other one leaves nothing has no surface to press.
+TEST(Flank, OfAToothThatMissesTheCutDoesNotDamp) {
+  MillingCut cut = insperger(up, 0.5);
+  cut.flank = worn;
+  cut.cutter.run_out = 100e-6;
+  ASSERT_LT(steady_thickness(cut, 1, 1.0), 0.0);
+  constexpr double depth = 1e-3, speed = 300.0;
+  EXPECT_FALSE(damping_factors(cut, 0, 1.0, depth, speed).isZero(0.0));
+  EXPECT_TRUE(damping_factors(cut, 1, 1.0, depth, speed).isZero(0.0));
 }
 
 } // namespace
