@@ -3,7 +3,9 @@
 #include "core/error.hpp"
 #include "core/index.hpp"
 #include "evaluate/cutting_result.hpp"
+#include "input/cutting_tool.hpp"
 #include "input/schema/units.hpp"
+#include "results/si_format.hpp"
 #include "study/sweep.hpp"
 
 #include <algorithm>
@@ -47,11 +49,44 @@ bool same_fibres(double a, double b) {
 bool has_chosen(const StudyRun& run, const LaminatePly& ply) {
   return std::all_of(ply.chosen.begin(), ply.chosen.end(), [&](const input::Override& choice) {
     const input::Value* own = run.find(choice.key);
-    return own && plain_text(*own) == plain_text(choice.value);
+    return own && same_value(*own, choice.value);
   });
 }
 
 double in_degrees(double angle) { return angle * 180.0 / std::numbers::pi; }
+
+/// "a feed of 0.1 mm and 0.2 mm", of the first that differs; empty: both are cut alike.
+std::string difference(const CutConditions& a, const CutConditions& b) {
+  const auto differ = [](double x, double y, double size) {
+    constexpr double slack = 1e-9;
+    return std::abs(x - y) > slack * size;
+  };
+  const auto both = [](const char* what, double x, double y, const char* unit) {
+    return fmt::format("a {} of {} and {}", what, results::si_format(x, unit, 6),
+                       results::si_format(y, unit, 6));
+  };
+  if (differ(a.rake, b.rake, 1.0))
+    return fmt::format("a rake of {:.6g} deg and {:.6g} deg", in_degrees(a.rake), in_degrees(b.rake));
+  if (differ(a.feed, b.feed, std::max(a.feed, b.feed))) return both("feed", a.feed, b.feed, "m");
+  if (differ(a.speed, b.speed, std::max(a.speed, b.speed))) return both("speed", a.speed, b.speed, "m/s");
+  return {};
+}
+
+/// m/s, the largest that is prescribed in the run; of a driven tool that at its beginning.
+double speed_of(const input::Tool& tool, double end) {
+  if (tool.drive) return tool.drive->initial_velocity.norm();
+  std::vector<double> times{0.0, end};
+  for (const auto& component : tool.velocity)
+    if (component) times.insert(times.end(), component->times().begin(), component->times().end());
+  double most = 0.0;
+  for (const double t : times) {
+    double square = 0.0;
+    for (const auto& component : tool.velocity)
+      if (component) square += std::pow((*component)(std::min(t, end)), 2);
+    most = std::max(most, std::sqrt(square));
+  }
+  return most;
+}
 
 /// Forces of a ply over the cut, N/m.
 struct Course {
@@ -80,8 +115,9 @@ double damage_depth(const evaluate::CuttingResult& cut) {
   return depth;
 }
 
-/// Forces over the cut as far as all plies are cut, and the largest sum until the last chip has come off.
-void add_courses(const Study& study, const std::vector<Course>& courses, double completed,
+/// Forces over the cut as far as all plies are cut, and the largest sum up to the length `until`, m, if they
+/// are cut as far as `completed`, m.
+void add_courses(const Study& study, const std::vector<Course>& courses, double completed, double until,
                  LaminateCut& result) {
   const std::vector<LaminatePly>& plies = study.laminate->plies;
   result.forces.title = "Cutting force of the laminate";
@@ -111,7 +147,8 @@ void add_courses(const Study& study, const std::vector<Course>& courses, double 
     }
     shares.push_back(std::move(share));
   }
-  for (std::size_t row = 0; row < cut.size() && cut[row] <= completed; ++row)
+  result.common = common;
+  for (std::size_t row = 0; row < cut.size() && cut[row] <= until && completed <= common; ++row)
     if (!(sum.y[row] <= result.peak)) result.peak = sum.y[row], result.peak_at = cut[row];
   result.forces.series.push_back(std::move(sum));
   for (report::ChartSeries& share : shares) result.forces.series.push_back(std::move(share));
@@ -129,8 +166,16 @@ std::vector<std::string> columns_of(const Laminate& laminate, const std::vector<
 
 } // namespace
 
+std::optional<CutConditions> cut_conditions(const input::Case& input) {
+  if (!input.report.cutting) return {};
+  const input::CuttingReport& report = *input.report.cutting;
+  return CutConditions{.rake = input::cutting_tool(input, report.tool).rake,
+                       .feed = report.feed,
+                       .speed = speed_of(input.tools[report.tool], input.time.end)};
+}
+
 std::vector<std::size_t> runs_of_plies(const Study& study, const std::vector<RunRecord>& runs,
-                                       const std::vector<bool>& cuts) {
+                                       const std::vector<std::optional<CutConditions>>& cuts) {
   const Laminate& laminate = *study.laminate;
   std::vector<std::optional<double>> angle;
   std::vector<double> known;
@@ -166,6 +211,12 @@ std::vector<std::size_t> runs_of_plies(const Study& study, const std::vector<Run
       refuse(fmt::format("run '{}' has no [report.cutting], expected an orthogonal cut in each run of a ply",
                          study.runs[fitting.front()].name));
     result.push_back(fitting.front());
+    const std::size_t first = result.front(), last = result.back();
+    if (const std::string differs = difference(*cuts[first], *cuts[last]); !differs.empty())
+      refuse(fmt::format("found plies '{}' and '{}' cut with {} (runs '{}' and '{}'), expected one tool: the "
+                         "same rake, feed and speed for all plies",
+                         laminate.plies.front().name, ply.name, differs, study.runs[first].name,
+                         study.runs[last].name));
   }
   return result;
 }
@@ -174,9 +225,9 @@ LaminateCut cut_of_laminate(const Study& study, const std::vector<RunRecord>& ru
                             const std::vector<std::size_t>& run, const std::filesystem::path& folder) {
   const std::vector<LaminatePly>& plies = study.laminate->plies;
   LaminateCut result;
-  result.peak = result.peak_at = not_known;
+  result.peak = result.peak_at = result.common = not_known;
   std::vector<Course> courses;
-  double completed = 0.0;
+  double completed = 0.0, until = 0.0;
   for (std::size_t k = 0; k < plies.size(); ++k) {
     evaluate::CuttingResult cut;
     if (runs[run[k]].status)
@@ -190,11 +241,13 @@ LaminateCut cut_of_laminate(const Study& study, const std::vector<RunRecord>& ru
     result.Ft_sum += result.Ft.back();
     result.damage_depth.push_back(damage_depth(cut));
     courses.emplace_back(cut.forces);
-    completed = std::max(completed, std::isfinite(cut.completed_at) ? cut.completed_at : INFINITY);
+    const double off = std::isfinite(cut.completed_at) ? cut.completed_at : INFINITY;
+    if (cut.breaks) completed = std::max(completed, off);
+    until = std::max(until, off);
   }
   for (std::size_t k = 1; k < plies.size(); ++k)
     result.delamination.push_back(std::abs(result.damage_depth[k] - result.damage_depth[k - 1]));
-  add_courses(study, courses, completed, result);
+  add_courses(study, courses, completed, until, result);
   for (const std::string& name : columns_of(*study.laminate, runs)) {
     LaminateColumn& column = result.columns.emplace_back();
     column.name = name;

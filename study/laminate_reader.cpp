@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <optional>
 
 namespace cnem::study {
@@ -26,6 +27,11 @@ std::optional<double> read_quantity(TableReader& table, const std::string& key,
   return {};
 }
 
+bool has_value(const std::vector<const input::Value*>& values, const input::Value& value) {
+  return std::any_of(values.begin(), values.end(),
+                     [&](const input::Value* one) { return same_value(*one, value); });
+}
+
 /// Keys whose values tell runs of one angle apart.
 void check_chosen(const LaminatePly& ply, const Study& study, input::Diagnostics& diagnostics) {
   for (const input::Override& choice : ply.chosen) {
@@ -37,13 +43,16 @@ void check_chosen(const LaminatePly& ply, const Study& study, input::Diagnostics
                                   "[[axis]] or [[run]]"));
       continue;
     }
-    if (std::none_of(study.runs.begin(), study.runs.end(), [&](const StudyRun& run) {
-          const input::Value* own = run.find(choice.key);
-          return own && plain_text(*own) == plain_text(choice.value);
-        }))
-      diagnostics.add(
-          input::Mistake::reference, choice.where, key,
-          fmt::format("found {}, expected a value that a run of the study has", choice.value.show()));
+    std::vector<const input::Value*> there;
+    for (const StudyRun& run : study.runs)
+      if (const input::Value* own = run.find(choice.key); own && !has_value(there, *own))
+        there.push_back(own);
+    if (has_value(there, choice.value)) continue;
+    std::vector<std::string> shown;
+    for (const input::Value* value : there) shown.push_back(value->show());
+    diagnostics.add(input::Mistake::reference, choice.where, key,
+                    fmt::format("found {}, expected a value that a run of the study has: {}",
+                                choice.value.show(), fmt::join(shown, ", ")));
   }
 }
 

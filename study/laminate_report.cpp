@@ -32,6 +32,12 @@ std::string shown_number(double value, const results::DisplayUnit& unit) {
   return std::isfinite(value) ? results::number_format(unit.shown(value), 4) : "";
 }
 
+/// Why there is no largest sum.
+std::string early_end(const LaminateCut& cut) {
+  return fmt::format("a chip is not off after {}, where the shortest cut of a ply ends",
+                     results::si_format(cut.common, "m"));
+}
+
 /// A column of the table of plies: of each and of the laminate.
 struct PlyColumn {
   std::string head, unit;
@@ -118,6 +124,10 @@ std::string laminate_section(const Study& study, const std::vector<std::size_t>&
       "the thickness, but the damaged depth and the delamination indicator, the difference to the depth of "
       "the next ply, of which the largest stands there.</p>\n",
       premise);
+  const std::string missing =
+      cut.ends_early()
+          ? fmt::format("<p>The largest sum of the laminate is not known: {}.</p>\n", early_end(cut))
+          : "";
   const std::string chart =
       cut.forces.series.empty()
           ? ""
@@ -125,7 +135,7 @@ std::string laminate_section(const Study& study, const std::vector<std::size_t>&
                         report::html_escape(cut.forces.title), report::svg_chart(cut.forces, units));
   return fmt::format("<section id=\"laminate\">\n<h2>Laminate</h2>\n{}<div class=\"runs\"><table>\n{}"
                      "</table></div>\n{}</section>\n",
-                     text, rows, chart);
+                     text + missing, rows, chart);
 }
 
 std::string laminate_line(const LaminateCut& cut) {
@@ -135,6 +145,7 @@ std::string laminate_line(const LaminateCut& cut) {
   if (std::isfinite(cut.peak))
     text += fmt::format(", largest sum {} after {} of cut", results::si_format(cut.peak, "N"),
                         results::si_format(cut.peak_at, "m"));
+  if (cut.ends_early()) text += ", largest sum not known: " + early_end(cut);
   if (const double most = largest_of(cut.delamination); std::isfinite(most))
     text += fmt::format(", damaged depths of neighbours differ by up to {}", results::si_format(most, "m"));
   return text + " (plies do not interact)\n";

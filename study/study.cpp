@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace cnem::study {
@@ -199,6 +200,23 @@ bool split_number(const input::Value& value, double& number, std::string& unit) 
     input::parse_unit(unit);
     return true;
   } catch (const input::UnitError&) { return false; } // "0 -11 m/s" is a vector, "2 * sheet" an expression
+}
+
+bool same_value(const input::Value& a, const input::Value& b) {
+  if (plain_text(a) == plain_text(b)) return true;
+  if (a.kind == Kind::array && b.kind == Kind::array)
+    return std::equal(a.elements.begin(), a.elements.end(), b.elements.begin(), b.elements.end(), same_value);
+  double x = 0.0, y = 0.0;
+  std::string x_unit, y_unit;
+  if (!split_number(a, x, x_unit) || !split_number(b, y, y_unit)) return false;
+  const auto unit_of = [](const std::string& text) {
+    return text.empty() ? input::Unit{} : input::parse_unit(text);
+  };
+  const input::Unit of_x = unit_of(x_unit), of_y = unit_of(y_unit);
+  if (of_x.dimension != of_y.dimension) return false;
+  constexpr double slack = 1e-12; // what conversions round
+  x = of_x.to_si(x), y = of_y.to_si(y);
+  return std::abs(x - y) <= slack * std::max(std::abs(x), std::abs(y));
 }
 
 } // namespace cnem::study

@@ -101,4 +101,8 @@ std::string file_name(std::string_view text);
 /// A value that begins with a number, such as 3 or "30 deg", and the text after it. False for others.
 bool split_number(const input::Value& value, double& number, std::string& unit);
 
+/// Whether two values say the same: numbers and quantities by their size ("10 um" and "0.01 mm", 1 and 1.0),
+/// lists element by element, others by their text.
+bool same_value(const input::Value& a, const input::Value& b);
+
 } // namespace cnem::study
