@@ -153,6 +153,12 @@ double flank_rise(const MillingCut& cut, std::size_t tooth, double phi) {
          cutter.radius();
 }
 
+bool engages(const MillingCut& cut, std::size_t tooth, double tip, double depth) {
+  return !along_edge(cut, tooth, tip, depth, [](double) -> DirectionalFactors {
+            return DirectionalFactors::Ones();
+          }).isZero(0.0);
+}
+
 double longest_contact(const MillingCut& cut) {
   const double from = cut.engagement.entry(cut.cutter), to = cut.engagement.exit(cut.cutter);
   const double foremost = std::clamp(0.5 * std::numbers::pi, from, to); // where sin φ is the largest

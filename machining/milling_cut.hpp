@@ -53,6 +53,9 @@ double flank_rise(const MillingCut& cut, std::size_t tooth, double phi);
 /// m, the longest contact of a land over the engagement.
 double longest_contact(const MillingCut& cut);
 
+/// Whether a part of [0, depth] of a tooth whose tip is at an angle φ lies within the engagement.
+bool engages(const MillingCut& cut, std::size_t tooth, double tip, double depth);
+
 /// Of flanks that plough: ∂F/∂u̇ of one tooth, as directional_factors(); none where it misses the cut. N s/m
 DirectionalFactors damping_factors(const MillingCut& cut, std::size_t tooth, double tip, double depth,
                                    double spindle);

@@ -5,6 +5,7 @@
 
 #include <Eigen/QR>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -76,11 +77,9 @@ void Monodromy::divide(const MillingCut& cut, double spindle, double depth) {
   for (std::size_t b = 1; b < breaks.size(); ++b) {
     const double from = breaks[b - 1], to = breaks[b], middle = 0.5 * (from + to);
     bool cutting = false;
-    for (std::size_t j = 0; j < cut.cutter.teeth(); ++j) {
-      const double tip = middle - cut.cutter.behind(j);
-      cutting |= !directional_factors(cut, j, tip, depth, spindle).isZero(0.0) ||
-                 !damping_factors(cut, j, tip, depth, spindle).isZero(0.0);
-    }
+    // One that misses the cut, too: what the next tooth cuts is told from where it was.
+    for (std::size_t j = 0; j < cut.cutter.teeth(); ++j)
+      cutting |= engages(cut, j, middle - cut.cutter.behind(j), depth);
     const double pieces = std::max((to - from) / widest, fastest_ * (to - from) / spindle / longest);
     const int count = cutting ? static_cast<int>(std::ceil(pieces)) : 1;
     for (int k = 0; k < std::max(count, 1); ++k) {
@@ -112,6 +111,7 @@ void Monodromy::couple(const MillingCut& cut, double spindle, double depth) {
         best = &element;
       }
     }
+    assert(best && nearest < 1e-6 * period_);
     return *best;
   };
   for (Element& element : elements_) {

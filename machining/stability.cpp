@@ -72,13 +72,17 @@ const char* name_of(Bifurcation kind) {
 Bifurcation Multiplier::kind() const {
   constexpr double real = 1e-9;
   if (std::abs(value.imag()) > real * std::abs(value)) return Bifurcation::hopf;
-  return value.real() < 0.0 ? Bifurcation::flip : Bifurcation::fold;
+  const double beside = std::abs(std::remainder(frequency / teeth, 1.0)); // of harmonics
+  constexpr double close = 1e-3;
+  if (beside < close) return Bifurcation::fold;
+  return beside > 0.5 - close ? Bifurcation::flip : Bifurcation::hopf;
 }
 
 Multiplier multiplier(const MillingCut& cut, std::span<const Mode> modes, double spindle, double depth) {
   const Monodromy monodromy(cut, modes, spindle, depth);
   const Eigenpair pair = largest(monodromy, of_limits);
-  return {pair.value, monodromy.strongest_frequency(pair.value, pair.vector) / (2.0 * std::numbers::pi)};
+  return {pair.value, monodromy.strongest_frequency(pair.value, pair.vector) / full_turn,
+          spindle / cut.cutter.period(false)};
 }
 
 double spectral_radius(const MillingCut& cut, std::span<const Mode> modes, double spindle, double depth) {

@@ -15,10 +15,11 @@ namespace cnem::machining {
 enum class Bifurcation { hopf, flip, fold };
 const char* name_of(Bifurcation kind);
 
-/// The multiplier of largest magnitude: what a disturbance is multiplied by in one period.
+/// The multiplier of largest magnitude: what a disturbance is multiplied by in one period (period_of()).
 struct Multiplier {
   std::complex<double> value;
   double frequency = 0.0; ///< Hz, of the strongest vibration that belongs to it
+  double teeth = 0.0;     ///< Hz, at which pitches repeat: what is told by it whether run-out does too or not
   Bifurcation kind() const;
 };
 

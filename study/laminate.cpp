@@ -148,7 +148,9 @@ void add_courses(const Study& study, const std::vector<Course>& courses, double 
     shares.push_back(std::move(share));
   }
   result.common = common;
-  for (std::size_t row = 0; row < cut.size() && cut[row] <= until && completed <= common; ++row)
+  constexpr double rounding = 1.0 + 1e-6; // of lengths as files have them
+  for (std::size_t row = 0;
+       row < cut.size() && cut[row] <= until * rounding && completed <= common * rounding; ++row)
     if (!(sum.y[row] <= result.peak)) result.peak = sum.y[row], result.peak_at = cut[row];
   result.forces.series.push_back(std::move(sum));
   for (report::ChartSeries& share : shares) result.forces.series.push_back(std::move(share));

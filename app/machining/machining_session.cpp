@@ -135,10 +135,11 @@ std::vector<std::string> flank_doubts(const input::Case& input, const std::vecto
   if (!(contact > 0.0))
     doubt("cutting.flank.clearance",
           "the land touches nothing in a steady cut, expected a recovery of the surface, or less clearance");
-  if (milling.cut.flank.recovery >= milling.cut.feed)
+  const double thickest = machining::steady_chips(milling.cut).thickest;
+  if (milling.cut.flank.recovery >= thickest)
     doubt("cutting.flank.recovery",
-          fmt::format("the surface springs back by {}, expected less than a chip, {}",
-                      si_format(milling.cut.flank.recovery, "m"), si_format(milling.cut.feed, "m")));
+          fmt::format("the surface springs back by {}, expected less than the thickest chip, {}",
+                      si_format(milling.cut.flank.recovery, "m"), si_format(thickest, "m")));
   const double slowest =
       input.analysis.type == input::Analysis::Type::stability ? milling.stability.speed_from : infinite;
   for (const input::NamedMode& mode : modes)

@@ -210,6 +210,45 @@ TEST(Flank, LimitsWithRunOutDoNotDependOnWhichToothIsTheFirst) {
   }
 }
 
+/// The same under a law that is not linear, from no run-out to one with which a tooth misses the cut.
+TEST(Flank, LimitsWithRunOutGoOnWhereAToothBeginsToMiss) {
+  KienzleLaw law;
+  law.Kt1 = 400e6;
+  law.Kr1 = 130e6;
+  law.mt = law.mr = 0.2;
+  MillingCut cut = insperger(up, 0.5);
+  cut.law = law;
+  const std::vector<Mode> modes = insperger_modes(1);
+  const auto limit = [&](double run_out, double angle) {
+    cut.cutter.run_out = run_out;
+    cut.cutter.run_out_angle = angle;
+    return depth_limit(cut, modes, 5000.0 * rpm, 2e-5, 5e-3)->depth;
+  };
+  const double misses = 0.5 * cut.feed / std::cos(0.3);
+  for (const double run_out : {0.0, 0.5 * misses, 1.5 * misses})
+    EXPECT_NEAR(limit(run_out, 0.3 + std::numbers::pi) / limit(run_out, 0.3), 1.0, 1e-6) << run_out;
+  EXPECT_NEAR(limit(1e-10, 0.3) / limit(0.0, 0.3), 1.0, 1e-5);
+  EXPECT_GT(limit(0.99 * misses, 0.3), 2.0 * limit(0.0, 0.3));
+  // What a last sliver of a chip takes goes with its part of the turn, √, and the slope of the law.
+  EXPECT_NEAR(limit((1.0 + 1e-7) * misses, 0.3) / limit((1.0 - 1e-7) * misses, 0.3), 1.0, 0.02);
+}
+
+/// Over a turn of two teeth the multiplier of a flip is +1.
+TEST(Flank, FlipsStayFlipsWhereRunOutMakesTheTurnThePeriod) {
+  MillingCut cut = insperger(down, 0.1);
+  cut.flank = {.land = 10e-6, .recovery = 1e-6, .specific_force = 4e13};
+  const std::vector<Mode> modes = insperger_modes(1);
+  const double speed = 7000.0 * rpm;
+  const auto even = depth_limit(cut, modes, speed, 1e-4, 5e-3);
+  cut.cutter.run_out = 1e-9;
+  const auto uneven = depth_limit(cut, modes, speed, 1e-4, 5e-3);
+  ASSERT_TRUE(even && uneven);
+  EXPECT_EQ(even->at.kind(), Bifurcation::flip);
+  EXPECT_EQ(uneven->at.kind(), Bifurcation::flip);
+  EXPECT_NEAR(uneven->depth / even->depth, 1.0, 1e-5);
+  EXPECT_NEAR(uneven->at.frequency / even->at.frequency, 1.0, 1e-6);
+}
+
 /// A tooth that the other one leaves nothing has no surface to press.
 TEST(Flank, OfAToothThatMissesTheCutDoesNotDamp) {
   MillingCut cut = insperger(up, 0.5);
