@@ -13,6 +13,12 @@ namespace cnem::machining {
 
 namespace {
 
+/// rad, within the engagement, where sin φ is the largest.
+double foremost_of(const MillingCut& cut) {
+  return std::clamp(0.5 * std::numbers::pi, cut.engagement.entry(cut.cutter),
+                    cut.engagement.exit(cut.cutter));
+}
+
 /// Thickness of a steady chip over sin φ, and what run-out adds, m.
 struct Chip {
   double feed, more;
@@ -76,7 +82,7 @@ std::vector<double> changes_within(const MillingCut& cut, std::size_t tooth) {
 
 SteadyChips steady_chips(const MillingCut& cut) {
   const double from = cut.engagement.entry(cut.cutter), to = cut.engagement.exit(cut.cutter);
-  const double foremost = std::clamp(0.5 * std::numbers::pi, from, to); // where sin φ is the largest
+  const double foremost = foremost_of(cut);
   SteadyChips chips;
   for (std::size_t j = 0; j < cut.cutter.teeth(); ++j) {
     chips.thickest = std::max(chips.thickest, steady_thickness(cut, j, foremost));
@@ -160,8 +166,7 @@ bool engages(const MillingCut& cut, std::size_t tooth, double tip, double depth)
 }
 
 double longest_contact(const MillingCut& cut) {
-  const double from = cut.engagement.entry(cut.cutter), to = cut.engagement.exit(cut.cutter);
-  const double foremost = std::clamp(0.5 * std::numbers::pi, from, to); // where sin φ is the largest
+  const double foremost = foremost_of(cut);
   double longest = 0.0;
   for (std::size_t j = 0; j < cut.cutter.teeth(); ++j)
     if (steady_thickness(cut, j, foremost) > 0.0)

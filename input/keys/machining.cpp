@@ -100,7 +100,8 @@ void add_flank(Keys& k) {
         "A land behind the edge that ploughs: it is part of a circle about the axis of the cutter, and what "
         "it presses of the surface that the edge has just made makes a force. Vibrations are damped by it. "
         "Without it flanks are free.");
-  k.add("cutting.flank.land", quantity, "Width of the land, along the way of the edge.")
+  k.add("cutting.flank.land", quantity,
+        "Width of the land, along the way of the edge; at most half the radius of the cutter.")
       .unit(d::length)
       .in(positive)
       .required()
