@@ -12,17 +12,14 @@
 namespace cnem::benchmarks {
 
 inline plasticity::Material steel_304L() {
-  return {.name = "304L",
-          .density = 7850.0,
-          .elasticity = {210e9, 0.33},
-          .hardening = plasticity::JohnsonCook{253e6, 685e6, 0.312, 0.0973, 1.0, 2.044, 296.0, 1698.0},
-          .anisotropy = {},
-          .damage = {},
-          .equation_of_state = {},
-          .measured = {},
-          .specific_heat = 500.0,
-          .conductivity = 5.86,
-          .heat_curves = {}};
+  plasticity::Material steel;
+  steel.name = "304L";
+  steel.density = 7850.0;
+  steel.elasticity = {210e9, 0.33};
+  steel.hardening = plasticity::JohnsonCook{253e6, 685e6, 0.312, 0.0973, 1.0, 2.044, 296.0, 1698.0};
+  steel.specific_heat = 500.0;
+  steel.conductivity = 5.86;
+  return steel;
 }
 
 /// A cloud free of supports and loads.

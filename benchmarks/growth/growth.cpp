@@ -1,8 +1,8 @@
 // What a node costs from a thousand nodes to a million: time of a step, of a rebuild, memory. One command:
-//   build/growth [--to 1000000] [--threads N] [--output results/growth]
-// writes growth.csv, growth.md and growth.svg. Each size runs in a process of its own, whose peak memory it
-// is. One thread is timed by its processor time, which others on the machine disturb least, several by the
-// wall.
+//   build/growth [--cells plane|median|voronoi] [--to 1000000] [--threads N] [--output results/growth]
+// in the plane, or in space with median or Voronoi cells, writes growth.csv, growth.md and growth.svg. Each
+// size runs in a process of its own, whose peak memory it is. One thread is timed by its processor time,
+// which others on the machine disturb least, several by the wall.
 #include "benchmarks/sheared_block.hpp"
 #include "core/error.hpp"
 #include "core/machine/clock.hpp"
@@ -17,6 +17,8 @@
 #include <exception>
 #include <filesystem>
 #include <fmt/format.h>
+#include <functional>
+#include <map>
 #include <omp.h>
 #include <optional>
 #include <string>
@@ -56,23 +58,36 @@ template<class Work> double median_time(Work&& work) {
   return seconds[seconds.size() / 2];
 }
 
-Cost measure(int nodes) {
+template<class MakeSolver> Cost measure(int nodes, const MakeSolver& make) {
   const auto before = static_cast<double>(results::peak_rss_bytes());
-  ExplicitSolver<2> solver = benchmarks::sheared_block(nodes);
+  auto solver = make(nodes);
   const auto count = static_cast<double>(solver.state().node.size());
   double dt = solver.stable_step().dt;
   while (solver.state().time < 4e-7) solver.advance(dt); // past the elastic limit everywhere
+  const double rebuild = median_time([&] { solver.prepare(); });
   const double ten_steps = median_time([&] {
     dt = solver.stable_step().dt;
     for (int k = 0; k < 10; ++k) solver.advance(dt);
   });
-  const double rebuild = median_time([&] { solver.prepare(); });
   return {count, ten_steps / 10.0 / count, rebuild / count,
           (static_cast<double>(results::peak_rss_bytes()) - before) / count};
 }
 
-/// measure() in a process of its own; none when it failed.
-std::optional<Cost> measure_apart(int nodes, int threads) {
+auto in_space(scni::CellKind cells) {
+  return [cells](int nodes) { return benchmarks::sheared_block_in_space(nodes, cells); };
+}
+
+/// What is measured, by the name of its cells.
+const std::map<std::string, std::function<Cost(int nodes)>>& measures() {
+  static const std::map<std::string, std::function<Cost(int nodes)>> named{
+      {"plane", [](int nodes) { return measure(nodes, benchmarks::sheared_block); }},
+      {"median", [](int nodes) { return measure(nodes, in_space(scni::CellKind::median)); }},
+      {"voronoi", [](int nodes) { return measure(nodes, in_space(scni::CellKind::voronoi)); }}};
+  return named;
+}
+
+/// The measure in a process of its own; none when it failed.
+std::optional<Cost> measure_apart(const std::string& cells, int nodes, int threads) {
   int ends[2];
   if (pipe(ends) != 0) return std::nullopt;
   const pid_t child = fork();
@@ -80,7 +95,7 @@ std::optional<Cost> measure_apart(int nodes, int threads) {
     int failed = 1;
     try {
       if (threads > 0) omp_set_num_threads(threads);
-      const Cost cost = measure(nodes);
+      const Cost cost = measures().at(cells)(nodes);
       failed = write(ends[1], &cost, sizeof cost) != static_cast<ssize_t>(sizeof cost);
     } catch (const std::exception& error) { fmt::print(stderr, "{} nodes: {}\n", nodes, error.what()); }
     _exit(failed);
@@ -94,9 +109,11 @@ std::optional<Cost> measure_apart(int nodes, int threads) {
 }
 
 /// All costs in one chart.
-report::Chart chart_of(const std::vector<Cost>& costs, int threads) {
+report::Chart chart_of(const std::vector<Cost>& costs, const std::string& cells, int threads) {
   report::Chart chart;
-  chart.title = fmt::format("Cost per node, {} {}", threads, threads == 1 ? "thread" : "threads");
+  chart.title =
+      fmt::format("Cost per node, {}, {} {}", cells == "plane" ? cells : "space, " + cells + " cells",
+                  threads, threads == 1 ? "thread" : "threads");
   chart.x_label = "nodes";
   chart.x_unit = "";
   chart.y_label = "ns per node and step, ns per node, bytes per node";
@@ -111,7 +128,7 @@ report::Chart chart_of(const std::vector<Cost>& costs, int threads) {
   return chart;
 }
 
-int run(int to, int threads, const std::filesystem::path& output) {
+int run(const std::string& cells, int to, int threads, const std::filesystem::path& output) {
   if (threads == 0) threads = omp_get_max_threads();
   std::filesystem::create_directories(output);
   std::string csv = "nodes,threads,step[ns/(node step)],rebuild[ns/node],peak_memory[B/node]\n";
@@ -121,7 +138,7 @@ int run(int to, int threads, const std::filesystem::path& output) {
   std::vector<Cost> costs;
   for (const int nodes : {1000, 3000, 10000, 30000, 100000, 300000, 1000000}) {
     if (nodes > to) continue;
-    const std::optional<Cost> cost = measure_apart(nodes, threads);
+    const std::optional<Cost> cost = measure_apart(cells, nodes, threads);
     if (!cost) return 1;
     costs.push_back(*cost);
     csv += fmt::format("{:.0f},{},{:.4g},{:.5g},{:.5g}\n", cost->nodes, threads, 1e9 * cost->step,
@@ -135,7 +152,7 @@ int run(int to, int threads, const std::filesystem::path& output) {
   }
   results::write_atomically(output / "growth.csv", csv);
   results::write_atomically(output / "growth.md", markdown);
-  results::write_atomically(output / "growth.svg", report::svg_file(chart_of(costs, threads)));
+  results::write_atomically(output / "growth.svg", report::svg_file(chart_of(costs, cells, threads)));
   return 0;
 }
 
@@ -145,13 +162,15 @@ int main(int argc, char** argv) {
   CLI::App program("Time of steps and rebuilds and memory per node, from a thousand nodes to a million",
                    "growth");
   int to = 1000000, threads = 0;
-  std::string output = "results/growth";
+  std::string cells = "plane", output = "results/growth";
+  program.add_option("--cells", cells, "plane, or in space median or voronoi")
+      ->check(CLI::IsMember(measures()));
   program.add_option("--to", to, "largest number of nodes")->check(CLI::PositiveNumber);
   program.add_option("--threads", threads, "number of threads (default: all)")->check(CLI::PositiveNumber);
   program.add_option("--output", output, "folder of results");
   CLI11_PARSE(program, argc, argv);
   try {
-    return run(to, threads, output);
+    return run(cells, to, threads, output);
   } catch (const IoError& error) {
     fmt::print(stderr, "{}\n", error.what());
     return 4;
