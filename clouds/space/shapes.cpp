@@ -33,6 +33,7 @@ double soup_volume(const FacetSoup& soup) {
 }
 
 template<class... F> struct Overload : F... { using F::operator()...; };
+template<class... F> Overload(F...) -> Overload<F...>;
 
 } // namespace
 

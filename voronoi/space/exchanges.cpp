@@ -56,7 +56,7 @@ std::vector<FlipMesh::Nodes> Exchanges::nodes_of(const std::vector<SimplexIndex>
 }
 
 void Exchanges::add_removals(const Edge& edge, std::vector<Exchange>& exchanges) {
-  const auto [d, e] = edge;
+  const NodeIndex d = edge.first, e = edge.second;
   if (is_edge(edge)) return;
   const SimplexIndex start = mesh.with(d, e);
   if (!exists(start)) return;
@@ -80,7 +80,7 @@ void Exchanges::add_removals(const Edge& edge, std::vector<Exchange>& exchanges)
       ++found;
       return;
     }
-    const auto [i, k] = open.back();
+    const std::size_t i = open.back()[0], k = open.back()[1];
     open.pop_back();
     if (k - i < 2) {
       self(self);
