@@ -66,6 +66,7 @@ void RigidContact<dim>::set_boundary(const std::vector<Facet<dim>>& facets, std:
 }
 
 template<int dim> void RigidContact<dim>::remember(const Fields<dim>& velocity) {
+  if (!active()) return;
   for (const BoundaryNodeIndex b : before_.indices()) before_[b] = at<dim>(velocity, surface_.node[b]);
 }
 

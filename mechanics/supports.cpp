@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/index.hpp"
+#include "core/machine/parallel.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -30,6 +31,7 @@ template<int dim> void Supports<dim>::resample(const Resampling<dim>& change, co
 template<int dim> void Supports<dim>::resolve(std::size_t nodes) {
   prescribed_.clear();
   constraints_.clear();
+  first_held_.assign(1, 0);
   IndexedVector<NodeIndex, std::vector<Prescribed>> held(nodes);
   for (std::size_t s = 0; s < support_.size(); ++s) {
     const bool moving = support_[s].kind != Support<dim>::Kind::symmetry;
@@ -61,7 +63,9 @@ template<int dim> void Supports<dim>::resolve(std::size_t nodes) {
       prescribed_.push_back(p);
     }
     constraints_.push_back({i, free});
+    first_held_.push_back(prescribed_.size());
   }
+  share_.resize(prescribed_.size());
 }
 
 template<int dim>
@@ -76,19 +80,25 @@ void Supports<dim>::apply(double time, double dt, double dt_mean, const Field& m
     else if (support_[s].kind == Support<dim>::Kind::displacement)
       target[s] = (value(time + dt) - value(time)) / dt;
   }
-  for (const Prescribed& p : prescribed_) {
-    const auto i = index_of(p.node);
-    const auto s = index_of(p.support);
-    double now = 0.0, was = 0.0;
-    for (std::size_t k = 0; k < dim; ++k) {
-      now += velocity[k][i] * p.direction[static_cast<Eigen::Index>(k)];
-      was += before[k][i] * p.direction[static_cast<Eigen::Index>(k)];
+  for_each_block(constraints_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t h = first_held_[begin]; h < first_held_[end]; ++h) {
+      const Prescribed& p = prescribed_[h];
+      const auto i = index_of(p.node);
+      const double wanted = target[index_of(p.support)];
+      double now = 0.0, was = 0.0;
+      for (std::size_t k = 0; k < dim; ++k) {
+        now += velocity[k][i] * p.direction[static_cast<Eigen::Index>(k)];
+        was += before[k][i] * p.direction[static_cast<Eigen::Index>(k)];
+      }
+      const double impulse = mass[i] * (wanted - now);
+      for (std::size_t k = 0; k < dim; ++k)
+        velocity[k][i] += (wanted - now) * p.direction[static_cast<Eigen::Index>(k)];
+      share_[h] = {impulse / dt_mean, 0.5 * impulse * (was + wanted)};
     }
-    const double impulse = mass[i] * (target[s] - now);
-    for (std::size_t k = 0; k < dim; ++k)
-      velocity[k][i] += (target[s] - now) * p.direction[static_cast<Eigen::Index>(k)];
-    reaction_[s] += impulse / dt_mean * p.direction;
-    work_ += 0.5 * impulse * (was + target[s]);
+  });
+  for (std::size_t h = 0; h < prescribed_.size(); ++h) { // in one order, whatever the number of threads
+    reaction_[index_of(prescribed_[h].support)] += share_[h].force * prescribed_[h].direction;
+    work_ += share_[h].work;
   }
 }
 

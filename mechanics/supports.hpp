@@ -78,7 +78,15 @@ private:
   void resolve(std::size_t nodes);
 
   std::vector<Support<dim>> support_;
+  /// What holding a node in a direction takes in a step.
+  struct Share {
+    double force; ///< along the direction, N/m^(3−dim)
+    double work;  ///< J/m^(3−dim)
+  };
+
   std::vector<Prescribed> prescribed_;
+  std::vector<Share> share_;            ///< [of prescribed] of a step, scratch
+  std::vector<std::size_t> first_held_; ///< [constraint + 1] into prescribed
   std::vector<contact::NodeConstraint<dim>> constraints_;
   std::vector<Vec<dim>> reaction_;
   double work_ = 0.0;
