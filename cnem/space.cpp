@@ -3,6 +3,7 @@
 #include "cnem/median.hpp"
 #include "cnem/smoothing.hpp"
 #include "core/error.hpp"
+#include "voronoi/linear_simplices.hpp"
 #include "voronoi/space/conduction.hpp"
 #include "voronoi/space/triangulate.hpp"
 
@@ -34,6 +35,9 @@ Approximation<3> CnemInSpace::rebuild(const Cloud<3>& cloud) {
                                        ? voronoi::triangulate(cloud)
                                        : voronoi::connected(cloud, options_.tetrahedra);
   Approximation<3> result;
+  result.conduction =
+      voronoi::linear_tetrahedra(cloud, mesh); // before the rest: it takes most while it is made
+  voronoi::keep_pattern(result.conduction);
   fallbacks_ = {};
   if (options_.cells == CellKind::median) {
     result.mechanics = median_gradients(cloud, mesh);
@@ -53,7 +57,6 @@ Approximation<3> CnemInSpace::rebuild(const Cloud<3>& cloud) {
     result.links = stabilisation_links(cloud, faces);
     fallbacks_ = facets.fallbacks;
   }
-  result.conduction = voronoi::linear_tetrahedra(cloud, mesh);
   result.node_volume = result.mechanics.volume;
   result.cells = voronoi::simplex_geometry<3>(cloud, mesh.node);
   result.cells.between_points = true;

@@ -118,7 +118,6 @@ template<int dim> void ExplicitSolver<dim>::archive(Archive& archive) {
     for (std::size_t k = 0; k < dim; ++k)
       conditions_.cloud.position[i][static_cast<Eigen::Index>(k)] = node.reference[k][i];
   *approximation_ = model_.method->rebuild(conditions_.cloud);
-  Conduction<dim>::keep_what_conducts(approximation_->conduction);
   place_reference();
   set_levels(local_.level());
   scale_masses();

@@ -106,7 +106,6 @@ template<int dim> void ExplicitSolver<dim>::renew(Cloud<dim> cloud, const Resamp
   each([&](Term<dim>& term) { term.renew(body()); });
   for (std::size_t p = 0; p < points; ++p)
     point.density[p] = body().material_of(p).density * point.stress_free[p];
-  Conduction<dim>::keep_what_conducts(approximation_->conduction);
   each([&](Term<dim>& term) { term.attach(body()); });
   copy_stress_columns<dim>(point.piola, stress_);
   rebuild_levels();

@@ -35,6 +35,7 @@ template<int dim> Approximation<dim> FeSimplices<dim>::rebuild(const Cloud<dim>&
   Approximation<dim> result;
   result.mechanics = voronoi::linear_simplices<dim>(cloud, simplices, space_);
   result.conduction = result.mechanics;
+  if constexpr (dim == 3) voronoi::keep_pattern(result.conduction);
   result.node_volume = result.mechanics.node_volume();
   for (std::size_t i = 0; i < result.node_volume.size(); ++i)
     if (!(result.node_volume[i] > 0.0))

@@ -46,18 +46,20 @@ void Conduction<dim>::set_operators(const DiscreteOperators<dim>& operators, Fie
   conductivity_ = given_ = std::move(conductivity);
   limited_ = false;
   corner_.clear();
-  const bool simplices = linear_simplices(operators);
-  flux_.assign((simplices ? dim + 1 : dim) * index_of(operators.points), 0.0);
-  if (simplices) number_corners();
+  simplices_ = leading_simplices(operators);
+  flux_.assign(dim * (index_of(operators.points) - simplices_), 0.0);
+  const bool by_entries = dim == 3 ? !operators.nodal : simplices_ > 0;
+  heat_.assign(by_entries ? operators.node.size() : 0, 0.0);
+  if (by_entries) number_corners();
 }
 
 namespace {
 
 template<int dim>
 void flux(const OperatorRows<dim>& rows, const double* hoop, const Field& position, const Field& temperature,
-          const Field& conductivity, Field& flux, std::size_t begin, std::size_t end) {
+          const Field& conductivity, double* flux, std::size_t begin, std::size_t end) {
   CNEM_ON_ACTIVE_ISA(conduction_flux(rows, hoop, position.data(), temperature.data(), conductivity.data(),
-                                     flux.data(), static_cast<std::ptrdiff_t>(begin),
+                                     flux, static_cast<std::ptrdiff_t>(begin),
                                      static_cast<std::ptrdiff_t>(end)));
 }
 
@@ -70,12 +72,14 @@ void subtract_flow(const OperatorColumns<dim>& columns, const Field& flux, Field
 
 } // namespace
 
-/// dim + 1 nodes a row, whose gradients are the linear ones.
-template<int dim> bool Conduction<dim>::linear_simplices(const DiscreteOperators<dim>& op) {
-  if (op.of_revolution()) return false;
-  for (int p = 0; p <= op.points; ++p)
-    if (op.row_begin[index_of(p)] != (dim + 1) * p) return false;
-  return true;
+/// How many rows from the first on have dim + 1 nodes, whose gradients are the linear ones: in the plane all
+/// or none.
+template<int dim> std::size_t Conduction<dim>::leading_simplices(const DiscreteOperators<dim>& op) {
+  if (op.of_revolution() || op.nodal) return 0;
+  std::size_t count = 0;
+  while (count < index_of(op.points) && op.row_begin[count + 1] == (dim + 1) * (as<std::int32_t>(count) + 1))
+    ++count;
+  return dim == 3 || count == index_of(op.points) ? count : 0;
 }
 
 namespace {
@@ -103,13 +107,6 @@ void add_corners(const DiscreteOperators<dim>& op, const std::vector<std::int32_
 
 } // namespace
 
-template<int dim> void Conduction<dim>::keep_what_conducts(DiscreteOperators<dim>& op) {
-  if (dim == 2 || !linear_simplices(op)) return;
-  for (Field* field : {&op.value, &op.weighted_value}) *field = Field();
-  for (Fields<dim>* fields : {&op.gradient, &op.weighted_gradient}) *fields = Fields<dim>();
-  op.point = std::vector<PointIndex>();
-}
-
 /// Where each entry of a column finds its corner, and triangles counter-clockwise. Tetrahedra conduct as well
 /// from either side.
 template<int dim> void Conduction<dim>::number_corners() {
@@ -133,11 +130,31 @@ template<int dim>
 void Conduction<dim>::add_simplex_flow(const Field& position, const Field& temperature, Field& flow) {
   const DiscreteOperators<dim>& op = *operators_;
   const std::vector<NodeIndex>& corner = dim == 2 ? triangle_ : op.node;
-  for_each_block(index_of(op.points), [&](std::size_t begin, std::size_t end) {
-    simplex_heat<dim>(corner, position, temperature, conductivity_, flux_, begin, end);
+  for_each_block(simplices_, [&](std::size_t begin, std::size_t end) {
+    simplex_heat<dim>(corner, position, temperature, conductivity_, heat_, begin, end);
   });
+  heat_other_rows(position, temperature);
   for_each_block(index_of(op.nodes), [&](std::size_t begin, std::size_t end) {
-    add_corners(op, corner_, flux_, flow, begin, end);
+    add_corners(op, corner_, heat_, flow, begin, end);
+  });
+}
+
+/// Rows behind the linear simplices: flat tetrahedra together with their neighbours.
+template<int dim> void Conduction<dim>::heat_other_rows(const Field& position, const Field& temperature) {
+  const DiscreteOperators<dim>& op = *operators_;
+  if (simplices_ == index_of(op.points)) return;
+  const auto rows = sparse_rows<dim>(op.row_begin, op.node, op.gradient);
+  for_each_block(index_of(op.points) - simplices_, [&](std::size_t begin, std::size_t end) {
+    flux(rows, nullptr, position, temperature, conductivity_, flux_.data() + dim * begin, simplices_ + begin,
+         simplices_ + end);
+    for (std::size_t p = simplices_ + begin; p < simplices_ + end; ++p) {
+      const double* q = flux_.data() + dim * (p - simplices_);
+      for (auto e = index_of(op.row_begin[p]); e < index_of(op.row_begin[p + 1]); ++e) {
+        double along = 0.0;
+        for (std::size_t k = 0; k < dim; ++k) along += q[k] * op.gradient[k][e];
+        heat_[e] = -op.volume[p] * along;
+      }
+    }
   });
 }
 
@@ -149,7 +166,7 @@ void Conduction<dim>::add_flow(const Field& position, const Field& temperature, 
   const auto columns = sparse_rows<dim>(op.col_begin, op.point, op.weighted_gradient);
   const double* hoop = op.of_revolution() ? op.hoop.data() : nullptr;
   for_each_block(index_of(op.points), [&](std::size_t begin, std::size_t end) {
-    flux(rows, hoop, position, temperature, conductivity_, flux_, begin, end);
+    flux(rows, hoop, position, temperature, conductivity_, flux_.data() + dim * begin, begin, end);
   });
   for_each_block(index_of(op.nodes), [&](std::size_t begin, std::size_t end) {
     subtract_flow(columns, flux_, flow, begin, end);
@@ -193,7 +210,7 @@ template<int dim> void Conduction<dim>::look_at_transfer(const Field& position) 
   norm_.resize(op.node.size());
   for (std::size_t p = 0; p < index_of(op.points); ++p) {
     if constexpr (dim == 3)
-      if (!corner_.empty()) {
+      if (p < simplices_) {
         const auto [gradient, carrying] = conducting_gradients(op.node.data() + 4 * p, position);
         for (std::size_t e = 4 * p; e < 4 * p + 4; ++e) {
           norm_[e] = gradient[e % 4].norm();

@@ -8,15 +8,12 @@ namespace cnem {
 
 /// Conduction with any gradient operator. C-NEM hands over the one of its Delaunay triangles or tetrahedra:
 /// the nodal one has weak modes that show as checkerboards (tests/unit/thermal). Of linear simplices it reads
-/// the pattern alone, in space not even their volumes: they conduct as they stand.
+/// the pattern alone, in space not even their volumes: they conduct as they stand. In space those are the
+/// rows of four nodes that come before all others, where rows are not those of nodes.
 template<int dim> class Conduction {
 public:
   /// Operators must outlive this object. conductivity [point of `operators`] in W/(m K).
   void set_operators(const DiscreteOperators<dim>& operators, Field conductivity);
-
-  /// Lets go of what is not read of operators: of tetrahedra all but the pattern, which would take as much
-  /// memory as the operators of mechanics.
-  static void keep_what_conducts(DiscreteOperators<dim>& operators);
 
   /// flow_J += −Σ_p V_p k J (F⁻¹F⁻ᵀ ∇_X T)·b_pJ: heat that arrives at node J, W/m^(3−dim). The flows of all
   /// nodes add up to zero. Positions are the current ones, side by side (core/operators/side_by_side.hpp).
@@ -33,20 +30,23 @@ public:
   void lift_limit();
 
 private:
-  static bool linear_simplices(const DiscreteOperators<dim>& operators);
+  static std::size_t leading_simplices(const DiscreteOperators<dim>& operators);
   void number_corners();
   double conducting_determinant(const Mat2& deformation, std::size_t row) const;
   void look_at_transfer(const Field& position);
   double decay_bound(const Field& heat_capacity) const;
   void add_simplex_flow(const Field& position, const Field& temperature, Field& flow);
+  void heat_other_rows(const Field& position, const Field& temperature);
 
   const DiscreteOperators<dim>* operators_ = nullptr;
   std::vector<NodeIndex> triangle_;  ///< [3 · triangle + corner] node, counter-clockwise, in the plane
-  std::vector<std::int32_t> corner_; ///< [column entry] row entry; empty but for linear simplices
+  std::vector<std::int32_t> corner_; ///< [column entry] row entry; empty: flux through columns
+  std::size_t simplices_ = 0;        ///< rows that are linear simplices: in the plane all or none
   Field conductivity_, given_;       ///< as limited, and without limits
   bool limited_ = false;
-  Field flux_; ///< [row][k] k J F⁻¹F⁻ᵀ ∇_X T, pulled-back heat flux with its sign turned; of linear
-               ///< simplices [row][corner] the heat into it
+  Field flux_; ///< [row][k] k J F⁻¹F⁻ᵀ ∇_X T, pulled-back heat flux with its sign turned, of rows that are no
+               ///< linear simplices
+  Field heat_;                     ///< [row entry] into its node, where no flux goes through columns
   Field norm_, transfer_, around_; ///< [row entry], [node], [node]: while decay rates are looked at
 };
 

@@ -30,7 +30,7 @@ void conduction_flux(const OperatorRows<dim>& rows, const double* hoop, const do
     const double volume =
         conducting(det, dim == 2 ? least_of_square * squares : least_of_cube * squares * sqrt(squares));
     const double scale = conductivity[p] * stretch / volume;
-    for (int k = 0; k < dim; ++k) flux[dim * p + k] = scale * cof[k].dot(spatial);
+    for (int k = 0; k < dim; ++k) flux[dim * (p - begin) + k] = scale * cof[k].dot(spatial);
   }
 }
 

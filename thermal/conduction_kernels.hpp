@@ -25,7 +25,7 @@ constexpr double conducting(double area, double least) {
 
 #define CNEM_CONDUCTION_KERNELS(isa)                                                                         \
   namespace isa {                                                                                            \
-  /* flux [point][k] = k J F⁻¹F⁻ᵀ ∇_X T; hoop [entry] of revolution, else null */                   \
+  /* flux [point − begin][k] = k J F⁻¹F⁻ᵀ ∇_X T; hoop [entry] of revolution, else null */         \
   template<int dim>                                                                                          \
   void conduction_flux(const OperatorRows<dim>& rows, const double* hoop, const double* position,            \
                        const double* temperature, const double* conductivity, double* flux,                  \

@@ -112,6 +112,14 @@ DiscreteOperators<dim> linear_simplices(const Cloud<dim>& cloud, std::span<const
   return op;
 }
 
+void keep_pattern(DiscreteOperators<3>& op) {
+  assert(!op.nodal && !op.of_revolution());
+  for (Field* field : {&op.value, &op.weighted_value}) *field = Field();
+  op.weighted_gradient = Fields<3>();
+  op.point = std::vector<PointIndex>();
+  if (op.node.size() == 4 * index_of(op.points)) op.gradient = Fields<3>();
+}
+
 template<int dim>
 CellGeometry<dim> simplex_geometry(const Cloud<dim>& cloud, std::span<const Simplex<dim>> simplices) {
   CellGeometry<dim> cells;

@@ -24,6 +24,11 @@ template<int dim>
 DiscreteOperators<dim> linear_simplices(const Cloud<dim>& cloud, std::span<const Simplex<dim>> simplices,
                                         Space space = Space::plane);
 
+/// Lets go of what conduction does not read of tetrahedra, which conduct as they stand
+/// (thermal/conduction.hpp) and would take as much memory as the operators of mechanics: their pattern is
+/// left, and gradients where other rows follow theirs (voronoi/space/conduction.hpp).
+void keep_pattern(DiscreteOperators<3>& op);
+
 /// Simplices as they are drawn, whose vertices are the nodes.
 template<int dim>
 CellGeometry<dim> simplex_geometry(const Cloud<dim>& cloud, std::span<const Simplex<dim>> simplices);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <cstdint>
 
 namespace cnem::voronoi {
@@ -16,7 +17,9 @@ namespace {
 /// [tetrahedron] the one that it is taken together with, itself unless it is flat; empty: none is flat.
 IndexedVector<SimplexIndex, SimplexIndex> partners(const Cloud<3>& cloud, const Tetrahedra& mesh,
                                                    std::vector<double>& volume) {
-  constexpr double flat = 1e-3;
+  // of 6V over the 3/2nd power of the sum of the squares of the edges: four times above what conduction lets
+  // them go flat before it changes what they carry (thermal/conduction_kernels.hpp)
+  constexpr double flat = 0.002;
   const std::size_t count = mesh.node.size();
   volume.resize(count);
   std::vector<std::uint8_t> is_flat(count);
@@ -24,9 +27,10 @@ IndexedVector<SimplexIndex, SimplexIndex> partners(const Cloud<3>& cloud, const 
     for (std::size_t t = begin; t < end; ++t) {
       const auto x = corners_of(cloud, mesh, as<SimplexIndex>(t));
       volume[t] = measure<3>(x);
-      const double edges =
-          (x[1] - x[0]).squaredNorm() * (x[2] - x[0]).squaredNorm() * (x[3] - x[0]).squaredNorm();
-      is_flat[t] = !(volume[t] > 0.0 && 36.0 * volume[t] * volume[t] > flat * flat * edges);
+      double squares = 0.0;
+      for (std::size_t c = 0; c < 4; ++c)
+        for (std::size_t d = c + 1; d < 4; ++d) squares += (x[d] - x[c]).squaredNorm();
+      is_flat[t] = !(volume[t] > 0.0 && 6.0 * volume[t] > flat * squares * std::sqrt(squares));
     }
   });
   IndexedVector<SimplexIndex, SimplexIndex> partner;
@@ -50,13 +54,17 @@ DiscreteOperators<3> linear_tetrahedra(const Cloud<3>& cloud, const Tetrahedra& 
   const auto partner = partners(cloud, mesh, volume);
   if (partner.empty()) return linear_simplices<3>(cloud, mesh.node);
 
-  std::vector<SimplexIndex> roots;
-  IndexedVector<SimplexIndex, std::int32_t> point(mesh.node.size());
+  std::vector<std::uint8_t> joined(mesh.node.size());
   for (const SimplexIndex t : mesh.node.indices())
-    if (partner[t] == t) {
-      point[t] = as<std::int32_t>(roots.size());
-      roots.push_back(t);
-    }
+    if (partner[t] != t) joined[index_of(partner[t])] = 1;
+  std::vector<SimplexIndex> roots; // those that are alone come first
+  IndexedVector<SimplexIndex, std::int32_t> point(mesh.node.size());
+  for (const int with_others : {0, 1})
+    for (const SimplexIndex t : mesh.node.indices())
+      if (partner[t] == t && joined[index_of(t)] == with_others) {
+        point[t] = as<std::int32_t>(roots.size());
+        roots.push_back(t);
+      }
   const auto members = group_by_cell<SimplexIndex>(roots.size(), mesh.node.size(), [&](std::size_t t) {
     return std::array{as<NodeIndex>(point[partner[t]])}; // lists of points in place of cells
   });

@@ -2,8 +2,10 @@
 // what those hold beside their pattern is not read.
 #include "core/operators/side_by_side.hpp"
 #include "tests/clouds.hpp"
+#include "tests/space_clouds.hpp"
 #include "thermal/conduction.hpp"
 #include "voronoi/linear_simplices.hpp"
+#include "voronoi/space/conduction.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
@@ -74,13 +76,13 @@ Field pulled_back_flow(const DiscreteOperators<3>& op, const Field& position, co
     const auto b = [&](std::size_t e) {
       return Vec3(op.gradient[0][e], op.gradient[1][e], op.gradient[2][e]);
     };
-    for (std::size_t e = 4 * p; e < 4 * p + 4; ++e) {
+    const auto first = index_of(op.row_begin[p]), last = index_of(op.row_begin[p + 1]);
+    for (std::size_t e = first; e < last; ++e) {
       f += Vec3::Map(position.data() + beside<3> * index_of(op.node[e])) * b(e).transpose();
       gradient += temperature[index_of(op.node[e])] * b(e);
     }
     const Vec3 flux = k * f.determinant() * f.inverse() * f.inverse().transpose() * gradient;
-    for (std::size_t e = 4 * p; e < 4 * p + 4; ++e)
-      flow[index_of(op.node[e])] -= op.volume[p] * flux.dot(b(e));
+    for (std::size_t e = first; e < last; ++e) flow[index_of(op.node[e])] -= op.volume[p] * flux.dot(b(e));
   }
   return flow;
 }
@@ -94,7 +96,7 @@ TEST(ConductionInSpace, tetrahedra_give_what_the_pulled_back_operator_gives) {
   for (double& value : temperature) value = random.uniform(200, 900);
   const Field expected = pulled_back_flow(op, position, temperature);
 
-  Conduction<3>::keep_what_conducts(op);
+  voronoi::keep_pattern(op);
   EXPECT_TRUE(op.gradient[0].empty() && op.weighted_gradient[0].empty());
   Conduction<3> conduction;
   conduction.set_operators(op, Field(index_of(op.points), k));
@@ -106,6 +108,30 @@ TEST(ConductionInSpace, tetrahedra_give_what_the_pulled_back_operator_gives) {
     sum += flow[i];
   }
   EXPECT_NEAR(sum, 0.0, 1e-9) << "what one node gives others receive";
+}
+
+/// Flat ones are taken together with a neighbour, in rows behind those of the others.
+TEST(ConductionInSpace, rows_of_flat_tetrahedra_conduct_beside_the_others) {
+  const auto body = recovered({.shape = SpaceShape::cube, .cells = 5, .jitter = 1e-3});
+  DiscreteOperators<3> op = voronoi::linear_tetrahedra(body.cloud, body.tetrahedra);
+  const auto entries = [&](std::size_t p) { return op.row_begin[p + 1] - op.row_begin[p]; };
+  EXPECT_EQ(entries(0), 4);
+  EXPECT_GT(entries(index_of(op.points) - 1), 4);
+  EXPECT_EQ(op.row_begin[0], 0);
+  for (std::size_t p = 1; p < index_of(op.points); ++p)
+    if (entries(p) == 4) { EXPECT_EQ(entries(p - 1), 4) << p; }
+
+  const Field position = bent(body.cloud);
+  Random random(4);
+  Field temperature(body.cloud.position.size());
+  for (double& value : temperature) value = random.uniform(200, 900);
+  const Field expected = pulled_back_flow(op, position, temperature);
+  voronoi::keep_pattern(op);
+  Conduction<3> conduction;
+  conduction.set_operators(op, Field(index_of(op.points), k));
+  Field flow(temperature.size(), 0.0);
+  conduction.add_flow(position, temperature, flow);
+  for (std::size_t i = 0; i < flow.size(); ++i) EXPECT_NEAR(flow[i], expected[i], 1e-11 * k * 900) << i;
 }
 
 /// The decay rate that no mode exceeds is above the largest of all modes, by no more than usual.
