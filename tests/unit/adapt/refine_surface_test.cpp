@@ -18,7 +18,8 @@ WorkingSurface loose_surface_of(const Cloud<3>& cloud) {
   return WorkingSurface(cloud, IndexedVector<NodeIndex, char>(cloud.position.size(), 0));
 }
 
-// Edges of 0.42 h become edges of 0.83 h, not one of several lengths.
+// Edges of 0.42 h become edges of 0.83 h, a few of three lengths, not all of as many as go below the limit
+// for splits: that would be 4 on each edge of the cube.
 TEST(RefineSurface, of_a_row_of_short_edges_every_second_node_goes) {
   const Cloud<3> cloud = testing::unrecovered({.shape = SpaceShape::cube, .cells = 12});
   WorkingSurface surface = loose_surface_of(cloud);
@@ -32,7 +33,7 @@ TEST(RefineSurface, of_a_row_of_short_edges_every_second_node_goes) {
     ++edges;
     longest = std::max(longest, surface.length(e));
   }
-  EXPECT_GE(edges, 12 * 6);
+  EXPECT_GT(edges, 12 * 5.5);
   EXPECT_LT(longest, 1.3 * 0.2);
 }
 
