@@ -25,7 +25,7 @@ double acuteness(const WorkingSurface& surface, Edge e) {
 } // namespace
 
 Field spacing_at_sharp_creases(const WorkingSurface& surface, const Field& wanted) {
-  constexpr double widest = 4.0, growth = 0.5;
+  constexpr double widest = 4.0, growth = 0.5; // over h, and for each length that is as long
   Field factor(wanted.size(), 1.0);
   bool widened = false;
   const auto widen = [&](NodeIndex i, double to) {
