@@ -1,5 +1,7 @@
 #include "adapt/space/refine_surface.hpp"
 
+#include "adapt/space/sharp_creases.hpp"
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -17,7 +19,8 @@ class Refinement {
 public:
   Refinement(WorkingSurface& surface, Field& size, const SurfaceThresholds& limits, PassReport& report,
              const PeriodImages& images)
-      : surface_(surface), alike_(surface, images), size_(size), limit_(limits), report_(report),
+      : surface_(surface), alike_(surface, images), size_(size),
+        wide_(spacing_at_sharp_creases(surface, size)), limit_(limits), report_(report),
         old_nodes_(size.size()), debt_(size.size(), 0.0) {
     result_.into.assign(size.size(), NodeIndex::none);
   }
@@ -46,8 +49,13 @@ private:
     }
   };
 
-  double spacing(NodeIndex i) const { return size_[index_of(i)]; }
-  double spacing(Edge e) const { return 0.5 * (spacing(surface_.start(e)) + spacing(surface_.end(e))); }
+  /// What volumes are measured with.
+  double size(Edge e) const {
+    return 0.5 * (size_[index_of(surface_.start(e))] + size_[index_of(surface_.end(e))]);
+  }
+  /// What lengths are measured with.
+  double spacing(NodeIndex i, NodeIndex k) const { return 0.5 * (wide_[index_of(i)] + wide_[index_of(k)]); }
+  double spacing(Edge e) const { return spacing(surface_.start(e), surface_.end(e)); }
 
   /// Edges, each once, with an order below zero for those that are to change.
   template<class Order> std::vector<Candidate> candidates(const Order& order) const {
@@ -76,7 +84,8 @@ private:
         for (const auto& [start, end, made] : alike_.split(surface_.between(c.start, c.end))) {
           result_.made.push_back({start, end});
           result_.into.push_back(NodeIndex::none);
-          size_.push_back(0.5 * (spacing(start) + spacing(end)));
+          size_.push_back(0.5 * (size_[index_of(start)] + size_[index_of(end)]));
+          wide_.push_back(spacing(start, end));
           debt_.push_back(0.0);
           ++report_.inserted_boundary;
           ++done;
@@ -100,7 +109,7 @@ private:
       const Edge e = surface_.on_surface(a) ? surface_.between(a, b) : WorkingSurface::no_edge;
       if (e == WorkingSurface::no_edge || !surface_.wants_flip(e)) continue;
       const std::vector<Edge> all = alike_.edges(e);
-      if (!alike_.may_flip(all, spacing(e))) continue;
+      if (!alike_.may_flip(all, size(e))) continue;
       for (const Edge k : all) flip(k, push);
     }
   }
@@ -108,7 +117,7 @@ private:
   template<class Push> void flip(Edge e, const Push& push) {
     const NodeIndex a = surface_.start(e), b = surface_.end(e), c = surface_.apex(e),
                     d = surface_.apex(surface_.across(e));
-    const SurfaceChange change = surface_.flip(e, spacing(e));
+    const SurfaceChange change = surface_.flip(e, size(e));
     if (!change.done()) return;
     owe(-change.volume, {a, b, c, d});
     ++report_.flipped;
@@ -127,10 +136,20 @@ private:
 
   void collapse_short() {
     const auto shortness = [&](Edge e) { return surface_.length(e) / spacing(e) - limit_.short_edge; };
+    // of a row of short edges every second node goes, not all
+    IndexedVector<NodeIndex, char> stays(surface_.nodes(), 0);
+    const auto go = [&](NodeIndex gone, NodeIndex into) {
+      if (stays[gone] || !surface_.on_surface(gone)) return false;
+      std::vector<NodeIndex> beside;
+      surface_.around(gone, [&](Edge e) { beside.push_back(surface_.end(e)); });
+      if (!collapse(gone, into)) return false;
+      for (const NodeIndex i : beside) stays[i] = 1;
+      return true;
+    };
     for (const Candidate& c : candidates(shortness)) {
       const bool first = rank(c.start) <= rank(c.end);
-      if (!collapse(first ? c.start : c.end, first ? c.end : c.start))
-        collapse(first ? c.end : c.start, first ? c.start : c.end);
+      if (!go(first ? c.start : c.end, first ? c.end : c.start))
+        go(first ? c.end : c.start, first ? c.start : c.end);
     }
     // nodes that creases have come near to
     std::vector<Candidate> list;
@@ -155,12 +174,11 @@ private:
     bool too_long = false;
     surface_.around(gone, [&](Edge k) {
       const NodeIndex i = surface_.end(k);
-      too_long |= (surface_.at(i) - surface_.at(stays)).norm() >
-                  limit_.split_edge * 0.5 * (spacing(i) + spacing(stays));
+      too_long |= (surface_.at(i) - surface_.at(stays)).norm() > limit_.split_edge * spacing(i, stays);
     });
-    if (too_long && surface_.length(e) > at_once * spacing(e)) return false;
+    if (too_long && surface_.length(e) > at_once * size(e)) return false;
     const std::vector<Edge> all = alike_.edges(e);
-    if (!alike_.may_collapse(all, spacing(e))) return false;
+    if (!alike_.may_collapse(all, size(e))) return false;
     bool done = false;
     for (const Edge k : all) done |= collapse(k);
     return done;
@@ -169,7 +187,7 @@ private:
   bool collapse(Edge e) {
     const NodeIndex gone = surface_.start(e), stays = surface_.end(e), c = surface_.apex(e),
                     d = surface_.apex(surface_.across(e));
-    const SurfaceChange change = surface_.collapse(e, spacing(e));
+    const SurfaceChange change = surface_.collapse(e, size(e));
     if (!change.done()) return false;
     owe(debt_[index_of(gone)] - change.volume, {stays, c, d});
     debt_[index_of(gone)] = 0.0;
@@ -182,6 +200,7 @@ private:
   WorkingSurface& surface_;
   AlikeEdits alike_;
   Field& size_;
+  Field wide_; ///< [node] m, spacing of the surface, wider than wanted at sharp creases
   const SurfaceThresholds& limit_;
   PassReport& report_;
   std::size_t old_nodes_;

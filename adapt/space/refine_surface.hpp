@@ -11,7 +11,8 @@
 
 namespace cnem::adapt {
 
-/// Lengths in units of the wanted spacing h at the place.
+/// Lengths in units of the wanted spacing h at the place, wider at sharp creases
+/// (adapt/space/sharp_creases.hpp).
 struct SurfaceThresholds {
   double split_edge = 1.5;  ///< longer edges are split
   double short_edge = 0.45; ///< shorter ones collapsed

@@ -99,29 +99,46 @@ bool WorkingSurface::corner(NodeIndex i) const {
   return cosine_between(at(i) - at(other[0]), at(other[1]) - at(i)) < least_corner_;
 }
 
-/// Of a node on a crease each side is a part; what a part that is plane is normal to is no way.
-void WorkingSurface::keep_on_planes(NodeIndex i, Vec3& way) const {
-  constexpr double plane = 1e-7;            // sine of an angle
-  std::vector<std::pair<Vec3, bool>> sides; // normal of a part between two creases, and whether it is plane
+/// Of a node on a crease each side is a part; what a part that is plane is normal to is no way. A corner has
+/// none but the line in which two planes meet.
+void WorkingSurface::keep_on_faces(NodeIndex i, Vec3& way) const {
+  if (held(i) || still(i)) {
+    way = Vec3::Zero();
+    return;
+  }
+  constexpr double plane = 1e-7; // sine of an angle
+  struct Side {                  // between two creases
+    Vec3 normal;
+    bool is_plane, is_plane_beyond;
+    int facets;
+  };
+  std::vector<Side> sides;
   std::vector<Edge> fan;
   around(i, [&](Edge e) { fan.push_back(e); });
   const auto first = std::find_if(fan.begin(), fan.end(), [&](Edge e) { return crease(e); });
   if (first != fan.end()) std::rotate(fan.begin(), first, fan.end());
   // the facet of an edge comes before the edge is crossed
   for (std::size_t k = 0; k < fan.size(); ++k) {
-    const Edge e = fan[(k + 1) % fan.size()];
+    const Edge e = fan[(k + 1) % fan.size()], opposite = next_edge(e);
     const Vec3 n = normal(e).normalized();
-    if (sides.empty() || crease(fan[k])) sides.emplace_back(n, true);
-    if (n.cross(sides.back().first).norm() > plane) sides.back().second = false;
+    if (sides.empty() || crease(fan[k])) sides.push_back({n, true, true, 0});
+    Side& side = sides.back();
+    const auto bent = [&](const Vec3& other) { return side.normal.cross(other).norm() > plane; };
+    if (bent(n)) side.is_plane = false;
+    if (!crease(opposite) && bent(normal(across(opposite)).normalized())) side.is_plane_beyond = false;
+    ++side.facets;
   }
+  constexpr int few = 2; // one facet, or the halves of one, are plane by themselves
   std::vector<Vec3> planes;
-  for (const auto& [n, is_plane] : sides)
-    if (is_plane) planes.push_back(n);
-  way = within_planes(planes, way);
+  for (const Side& side : sides)
+    if (side.is_plane && (side.is_plane_beyond || side.facets > few)) planes.push_back(side.normal);
+  const auto meets_first = [&](const Vec3& n) { return n.cross(planes.front()).norm() > plane; };
+  const bool line = std::any_of(planes.begin(), planes.end(), meets_first);
+  way = corner(i) && !line ? Vec3::Zero() : within_planes(planes, way);
 }
 
 Vec3 WorkingSurface::way_of_volume(NodeIndex i) const {
-  if (!on_surface(i) || held(i) || still(i) || corner(i)) return Vec3::Zero();
+  if (!on_surface(i) || held(i) || still(i)) return Vec3::Zero();
   Vec3 gradient = Vec3::Zero();
   double area = 0.0;
   around(i, [&](Edge e) {
@@ -129,7 +146,7 @@ Vec3 WorkingSurface::way_of_volume(NodeIndex i) const {
     gradient += part;
     area += part.norm();
   });
-  keep_on_planes(i, gradient);
+  keep_on_faces(i, gradient);
   constexpr double least = 0.1; // else it is rounding, or a long way for a little volume
   return gradient.norm() > least * area ? gradient : Vec3::Zero();
 }
@@ -227,9 +244,9 @@ SurfaceChange WorkingSurface::try_collapse(Edge e, double spacing, Vec3& to) con
   if (!repeated && std::abs(lost) > limit) return {Refusal::volume};
   constexpr double rounding = 1e-9, farthest = 0.1;
   to = from;
-  if (std::abs(lost) > rounding * limit && !held(stays) && !still(stays) && !corner(stays)) {
+  if (std::abs(lost) > rounding * limit) {
     Vec3 way = gradient;
-    keep_on_planes(stays, way);
+    keep_on_faces(stays, way);
     const double step = lost / way.squaredNorm();
     if (way.norm() > 0.1 * gradient.norm() && std::abs(step) * way.norm() < farthest * spacing)
       to += step * way;

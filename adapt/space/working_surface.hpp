@@ -124,7 +124,7 @@ private:
   double cosine_across(Edge e) const;
   void join(Edge a, Edge b);
   bool may_become(const Corners& before, const Corners& after) const;
-  void keep_on_planes(NodeIndex i, Vec3& way) const;
+  void keep_on_faces(NodeIndex i, Vec3& way) const;
   Refusal may_collapse(Edge e) const;
   Edge add_facet(const Facet<3>& facet);
 

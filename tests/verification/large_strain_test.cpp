@@ -205,15 +205,9 @@ TEST_P(LargeStrain, simple_shear_to_four) {
   body.lead(motion, end);
   body.expect_sound_passes(10);
   body.expect_stress(exact_stress(body.material(), motion, end), 0.001, 0.01);
-  // Two edges of the body have become 14 degrees sharp, which no cloud bears with its first step. It is that
-  // of nodes that are generated in the sheared shape.
-  const std::string sheared = R"toml(
-outer.start = "0 0 mm"
-outer.path = [{ to = "1 0 mm" }, { to = "5 1 mm" }, { to = "4 1 mm" }, { to = "0 0 mm" }]
-extrude.to = "1 mm"
-)toml";
-  EXPECT_GT(body.step(), 0.9 * Driven(case_of(sheared, GetParam().method), gradient).first_step());
-  EXPECT_GT(body.step(), 0.35 * body.first_step());
+  // Two edges of the body have become 14 degrees sharp: there the spacing is wider. A cloud that is generated
+  // in the sheared shape has 0.39 of the first step.
+  EXPECT_GT(body.step(), 0.5 * body.first_step());
 }
 
 // The same stretches with corners that stay square.

@@ -156,5 +156,29 @@ TEST(WorkingSurface, gives_back_volume_where_nodes_may_move) {
   EXPECT_NEAR(enclosed_measure(cloud_of(surface, cloud)) - before, 1e-9 * moved, 1e-13);
 }
 
+// Symmetry planes meet in a line, and what is between them and a bent face moves with the face.
+TEST(WorkingSurface, corners_beside_a_bent_face_slide_along_the_line_of_two_planes) {
+  Cloud<3> cloud = testing::unrecovered({.shape = SpaceShape::cube, .cells = 6, .jitter = 0.2});
+  for (Vec3& x : cloud.position) x.x() *= 1.2 - 0.1 * (x.y() * x.y() + x.z() * x.z());
+  WorkingSurface surface = surface_of(cloud);
+  const double before = enclosed_measure(cloud);
+  int corners = 0, moved = 0;
+  for (const NodeIndex i : cloud.position.indices()) {
+    if (!surface.on_surface(i) || !surface.corner(i)) continue;
+    ++corners;
+    if (!surface.swell(i, 1e-5, 0.05)) {
+      EXPECT_EQ(surface.at(i), cloud.position[i]);
+      continue;
+    }
+    ++moved;
+    EXPECT_GT(surface.at(i).x(), cloud.position[i].x() + 1e-4);
+    EXPECT_EQ(surface.at(i).y(), cloud.position[i].y());
+    EXPECT_EQ(surface.at(i).z(), cloud.position[i].z());
+  }
+  EXPECT_EQ(corners, 8);
+  EXPECT_EQ(moved, 4);
+  EXPECT_NEAR(enclosed_measure(cloud_of(surface, cloud)) - before, 4e-5, 1e-12);
+}
+
 } // namespace
 } // namespace cnem::adapt

@@ -1,0 +1,55 @@
+#include "adapt/space/sharp_creases.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace cnem::adapt {
+
+using Edge = WorkingSurface::Edge;
+
+namespace {
+
+/// sin α of an acute angle in the metal between the facets of an edge; 1 where it is none, as at a notch.
+double acuteness(const WorkingSurface& surface, Edge e) {
+  const Vec3 from = surface.at(surface.start(e)), along = surface.at(surface.end(e)) - from;
+  const Vec3 one = along.cross(surface.at(surface.apex(e)) - from),
+             other = (surface.at(surface.apex(surface.across(e))) - from).cross(along);
+  const Vec3 turn = one.cross(other);
+  const double lengths = one.norm() * other.norm();
+  if (!(lengths > 0.0) || one.dot(other) >= 0.0 || turn.dot(along) <= 0.0) return 1.0;
+  return turn.norm() / lengths;
+}
+
+} // namespace
+
+Field spacing_at_sharp_creases(const WorkingSurface& surface, const Field& wanted) {
+  constexpr double widest = 4.0, growth = 0.5; // over h, and for each length that is as long
+  Field factor(wanted.size(), 1.0);
+  bool widened = false;
+  const auto widen = [&](NodeIndex i, double to) {
+    if (!(to > factor[index_of(i)])) return;
+    factor[index_of(i)] = to;
+    widened = true;
+  };
+  for (Edge e = 0; e < surface.edges(); ++e) {
+    if (!surface.alive(e) || surface.is_still(surface.piece(e)) ||
+        surface.is_still(surface.piece(surface.across(e)))) // metal goes on beyond a period
+      continue;
+    const double at_crease = 1.0 / std::max(acuteness(surface, e), 1.0 / widest);
+    for (const NodeIndex i : {surface.start(e), surface.end(e)}) widen(i, at_crease);
+  }
+  while (std::exchange(widened, false))
+    for (Edge e = 0; e < surface.edges(); ++e) {
+      if (!surface.alive(e)) continue;
+      const NodeIndex a = surface.start(e), b = surface.end(e);
+      const double h = 0.5 * (wanted[index_of(a)] + wanted[index_of(b)]);
+      widen(b, factor[index_of(a)] - growth * surface.length(e) / h);
+    }
+  Field spacing = wanted;
+  for (std::size_t i = 0; i < spacing.size(); ++i) spacing[i] *= factor[i];
+  return spacing;
+}
+
+} // namespace cnem::adapt
