@@ -50,7 +50,7 @@ template<int dim> void refuse_snap_back(const input::Case& input, const Explicit
           point.failure_length[p] >= longest)
         throw input.error(
             fmt::format("materials.{}.failure.{}", material.name, modes[mode]),
-            fmt::format("found an energy that cells of a length of {:.4g} m cannot spend, band √area, "
+            fmt::format("found an energy that cells of a length of {:.4g} m cannot spend, "
                         "expected cells below 2 G E/X² = {:.4g} m: a finer cloud or more energy",
                         point.failure_length[p], longest));
   }

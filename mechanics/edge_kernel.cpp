@@ -1,4 +1,5 @@
 #include "core/small_vector.hpp"
+#include "mechanics/failing_links.hpp"
 #include "mechanics/step_kernels.hpp"
 
 namespace cnem::CNEM_ISA {
@@ -13,7 +14,10 @@ CNEM_INLINE Quad load_quad(const double* p) { return *reinterpret_cast<const Una
 CNEM_INLINE Small<2> low(Quad a) { return {__builtin_shufflevector(a, a, 0, 1)}; }
 CNEM_INLINE Small<2> high(Quad a) { return {__builtin_shufflevector(a, a, 2, 3)}; }
 
+CNEM_INLINE Small<2> smaller(Small<2> a, Small<2> b) { return {a.v < b.v ? a.v : b.v}; }
+
 /// edge_defect in the plane, where a record is two registers and one cache line.
+template<bool failing>
 EdgeEnergy plane_edge_defect(const LinkRows& links, double alpha, const double* volume,
                              const double* position, const double* record, double* stress,
                              double* const* force, std::ptrdiff_t begin, std::ptrdiff_t end) {
@@ -33,7 +37,8 @@ EdgeEnergy plane_edge_defect(const LinkRows& links, double alpha, const double* 
       const Quad dX = __builtin_shufflevector(sum, sum, 2, 2, 3, 3);
       const Quad mean = (load_quad(other) + F) * dX;
       const Small<2> r = (Small<2>::load(position + 2 * j) - x) - (low(mean) + high(mean)) * 0.5;
-      const Small<2> stiffness = low(sum) * links.weight[e];
+      const Small<2> moduli = failing ? smaller(low(load_quad(other + 4)), low(rest)) * 2.0 : low(sum);
+      const Small<2> stiffness = moduli * links.weight[e];
       const Small<2> square = r * r;
       energies += stiffness * (square + swapped(square));
       const Small<2> tension = r * first(stiffness);
@@ -105,9 +110,15 @@ EdgeEnergy edge_defect(const LinkRows& links, double alpha, const double* volume
                        const double* record, double* stress, double* const* force, std::ptrdiff_t begin,
                        std::ptrdiff_t end) {
   if constexpr (dim == 2)
-    return plane_edge_defect(links, alpha, volume, position, record, stress, force, begin, end);
+    return plane_edge_defect<false>(links, alpha, volume, position, record, stress, force, begin, end);
   else
     return space_edge_defect(links, alpha, volume, position, record, stress, force, begin, end);
+}
+
+EdgeEnergy failing_edge_defect(const LinkRows& links, double alpha, const double* volume,
+                               const double* position, const double* record, double* stress,
+                               double* const* force, std::ptrdiff_t begin, std::ptrdiff_t end) {
+  return plane_edge_defect<true>(links, alpha, volume, position, record, stress, force, begin, end);
 }
 
 #define CNEM_INSTANTIATE(dim)                                                                                \

@@ -25,7 +25,7 @@ struct Failure {
   double Xt = infinite, Xc = 0.0, Yt = 0.0, Yc = 0.0, S = 0.0;
   double eps1t = infinite, alpha0 = 0.92502450355699462; // 53°
   double Gft = infinite, Gfc = infinite, Gmt = infinite, Gmc = infinite, Gs = infinite;
-  double band = 2.2;
+  double band = 2.0;
 
   static constexpr double broken = 0.99; ///< largest d that is told of
 
@@ -111,8 +111,9 @@ struct Failure {
       {&Failure::band,
        {.name = "band",
         .range = positive,
-        .meaning = "Thickness of the band in which cells break, in cell sizes √area: with it the energy of a "
-                   "mode is spread over the cells. docs/theory.md says where the default comes from."}}};
+        .meaning = "Thickness of the band in which cells break, in cell sizes (half the width over which the "
+                   "gradients of a cell spread an opening): with it the energy of a mode is spread over the "
+                   "cells. 2 is that width itself (docs/theory.md)."}}};
 
   double energy(int mode) const { return std::array{Gft, Gfc, Gmt, Gmc, Gs}[static_cast<std::size_t>(mode)]; }
   /// Length ℓ from which on a mode snaps back, m: 2 G E/X² with its modulus and strength; infinite: the

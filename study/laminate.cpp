@@ -3,7 +3,9 @@
 #include "core/error.hpp"
 #include "core/index.hpp"
 #include "evaluate/cutting_result.hpp"
+#include "input/cutting_edge.hpp"
 #include "input/cutting_tool.hpp"
+#include "input/schema/document.hpp"
 #include "input/schema/units.hpp"
 #include "results/si_format.hpp"
 #include "study/sweep.hpp"
@@ -65,10 +67,16 @@ std::string difference(const CutConditions& a, const CutConditions& b) {
     return fmt::format("a {} of {} and {}", what, results::si_format(x, unit, 6),
                        results::si_format(y, unit, 6));
   };
-  if (differ(a.rake, b.rake, 1.0))
-    return fmt::format("a rake of {:.6g} deg and {:.6g} deg", in_degrees(a.rake), in_degrees(b.rake));
+  const auto both_angles = [](const char* what, double x, double y) {
+    return fmt::format("a {} of {:.6g} deg and {:.6g} deg", what, in_degrees(x), in_degrees(y));
+  };
+  if (differ(a.rake, b.rake, 1.0)) return both_angles("rake", a.rake, b.rake);
+  if (differ(a.clearance, b.clearance, 1.0)) return both_angles("clearance", a.clearance, b.clearance);
+  if (differ(a.edge_radius, b.edge_radius, std::max(a.edge_radius, b.edge_radius)))
+    return both("radius of the edge", a.edge_radius, b.edge_radius, "m");
   if (differ(a.feed, b.feed, std::max(a.feed, b.feed))) return both("feed", a.feed, b.feed, "m");
   if (differ(a.speed, b.speed, std::max(a.speed, b.speed))) return both("speed", a.speed, b.speed, "m/s");
+  if (a.friction != b.friction) return fmt::format("a friction of {} and {}", a.friction, b.friction);
   return {};
 }
 
@@ -86,6 +94,18 @@ double speed_of(const input::Tool& tool, double end) {
     most = std::max(most, std::sqrt(square));
   }
   return most;
+}
+
+/// With all of its constants.
+std::string friction_of(const input::Case& input, const std::string& tool) {
+  const input::Value document = input::parse_document(input.resolved, "resolved case");
+  const input::Value* at = &document;
+  for (const char* key : {"tools", tool.c_str(), "friction"}) {
+    const input::Member* member = at->find(key);
+    if (!member) return "none";
+    at = &member->value;
+  }
+  return input::toml_text(*at);
 }
 
 /// Forces of a ply over the cut, N/m.
@@ -171,9 +191,14 @@ std::vector<std::string> columns_of(const Laminate& laminate, const std::vector<
 std::optional<CutConditions> cut_conditions(const input::Case& input) {
   if (!input.report.cutting) return {};
   const input::CuttingReport& report = *input.report.cutting;
+  const input::Tool& tool = input.tools[report.tool];
+  const input::CuttingEdge edge = input::cutting_edge(input, report.tool);
   return CutConditions{.rake = input::cutting_tool(input, report.tool).rake,
                        .feed = report.feed,
-                       .speed = speed_of(input.tools[report.tool], input.time.end)};
+                       .speed = speed_of(tool, input.time.end),
+                       .clearance = edge.clearance,
+                       .edge_radius = edge.radius,
+                       .friction = friction_of(input, tool.name)};
 }
 
 std::vector<std::size_t> runs_of_plies(const Study& study, const std::vector<RunRecord>& runs,
@@ -216,7 +241,7 @@ std::vector<std::size_t> runs_of_plies(const Study& study, const std::vector<Run
     const std::size_t first = result.front(), last = result.back();
     if (const std::string differs = difference(*cuts[first], *cuts[last]); !differs.empty())
       refuse(fmt::format("found plies '{}' and '{}' cut with {} (runs '{}' and '{}'), expected one tool: the "
-                         "same rake, feed and speed for all plies",
+                         "same rake, clearance, edge, feed, speed and friction for all plies",
                          laminate.plies.front().name, ply.name, differs, study.runs[first].name,
                          study.runs[last].name));
   }

@@ -16,17 +16,19 @@ namespace cnem::study {
 
 /// How the tool of a run cuts: those of the plies of a laminate are one.
 struct CutConditions {
-  double rake = 0.0;  ///< rad
-  double feed = 0.0;  ///< m
-  double speed = 0.0; ///< m/s, the largest that is prescribed; of a driven tool that at its beginning
+  double rake = 0.0;        ///< rad
+  double feed = 0.0;        ///< m
+  double speed = 0.0;       ///< m/s, the largest that is prescribed; of a driven tool that at its beginning
+  double clearance = 0.0;   ///< rad
+  double edge_radius = 0.0; ///< m; 0: sharp
+  std::string friction;     ///< the tool's as the resolved case has it, in SI
 };
 /// None without [report.cutting].
 std::optional<CutConditions> cut_conditions(const input::Case& input);
 
 /// The run in which each ply of the laminate is cut, [ply]. Angles of fibres are the same when they differ by
 /// half turns. Throws InputError for a ply that no run, or that several, are for, for runs without
-/// [report.cutting], and for plies that are cut with another rake, feed or speed than the first; `cuts`
-/// [run].
+/// [report.cutting], and for plies that are cut otherwise than the first; `cuts` [run].
 std::vector<std::size_t> runs_of_plies(const Study& study, const std::vector<RunRecord>& runs,
                                        const std::vector<std::optional<CutConditions>>& cuts);
 

@@ -19,7 +19,7 @@ namespace {
 /// What the cases of all runs say.
 struct CasesOfStudy {
   std::vector<RunRecord> runs;
-  std::vector<std::optional<CutConditions>> cuts; ///< [run] none: it evaluates no orthogonal cut
+  std::vector<std::optional<CutConditions>> cuts; ///< [run], of laminates; none: no orthogonal cut
 };
 
 /// Reads the case of every run, so that a mistake in the last one shows before the first one starts.
@@ -29,7 +29,7 @@ CasesOfStudy read_cases(const Study& study) {
     try {
       const input::Case input = input::read_case_with(study.case_file.string(), run.changes());
       RunRecord& record = cases.runs.emplace_back();
-      cases.cuts.push_back(cut_conditions(input));
+      cases.cuts.push_back(study.laminate ? cut_conditions(input) : std::nullopt);
       record.inputs = inputs_of(input);
       record.variables = input.variables;
       if (const auto& blanking = input.report.blanking) record.punch = input.tools[blanking->punch].name;

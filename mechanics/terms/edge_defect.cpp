@@ -2,7 +2,10 @@
 
 #include "core/index.hpp"
 #include "core/machine/isa.hpp"
+#include "mechanics/failing_links.hpp"
 #include "mechanics/terms/list.hpp"
+
+#include <algorithm>
 
 namespace cnem {
 
@@ -38,12 +41,24 @@ EdgeEnergy defect(const LinkRows& links, double alpha, const Field& volume, cons
                                       static_cast<std::ptrdiff_t>(end)));
 }
 
+EdgeEnergy failing_defect(const LinkRows& links, double alpha, const Field& volume, const Field& position,
+                          const Field& record, Field& stress, double* const* force, std::size_t begin,
+                          std::size_t end) {
+  CNEM_ON_ACTIVE_ISA(failing_edge_defect(links, alpha, volume.data(), position.data(), record.data(),
+                                         stress.data(), force, static_cast<std::ptrdiff_t>(begin),
+                                         static_cast<std::ptrdiff_t>(end)));
+}
+
 } // namespace
 
 template<int dim>
 EdgeEnergy EdgeDefect<dim>::apply(const StabilisationLinks<dim>& links, const Field& volume,
                                   const Field& position, ColumnStress<dim>& stress, Fields<dim>& force,
                                   std::size_t begin, std::size_t end) const {
+  if constexpr (dim == 2)
+    if (failing_)
+      return failing_defect({links.begin.data(), links.neighbour.data(), links.weight.data()}, alpha_, volume,
+                            position, record_, stress.columns, pointers(force).data(), begin, end);
   return defect<dim>({links.begin.data(), links.neighbour.data(), links.weight.data()}, alpha_, volume,
                      position, record_, stress.columns, pointers(force).data(), begin, end);
 }
@@ -102,7 +117,9 @@ template<int dim> void EdgeDefect<dim>::restore(const Body<dim>& body) {
 }
 
 template<int dim> std::unique_ptr<Term<dim>> edge_defect(const Model<dim>& model) {
-  return std::make_unique<EdgeDefect<dim>>(model.stabilisation);
+  const bool failing = std::any_of(model.materials.begin(), model.materials.end(),
+                                   [](const plasticity::Material& own) { return own.failure.has_value(); });
+  return std::make_unique<EdgeDefect<dim>>(model.stabilisation, failing);
 }
 
 template std::unique_ptr<Term<2>> edge_defect(const Model<2>&);

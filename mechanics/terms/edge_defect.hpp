@@ -13,7 +13,9 @@ namespace cnem {
 template<int dim> class EdgeDefect : public Term<dim> {
 public:
   /// alpha: dimensionless factor, 0.05 restores the free-plate frequencies. 0 switches the stabilisation off.
-  explicit EdgeDefect(double alpha) : alpha_(alpha) {}
+  /// failing: plies may fail; a link has the smaller of μ̃_i and μ̃_j in the place of their mean, in the plane
+  /// (mechanics/failing_links.hpp).
+  explicit EdgeDefect(double alpha, bool failing = false) : alpha_(alpha), failing_(failing) {}
 
   bool active(const StabilisationLinks<dim>& links) const { return alpha_ > 0.0 && !links.neighbour.empty(); }
 
@@ -57,6 +59,7 @@ private:
   }
 
   double alpha_;
+  bool failing_;
   FieldTable table_{"solver/point"};
   /// μ̃ of this step and of the step before
   ScalarField modulus_{table_, {"penalty_modulus", "Pa", Carry::mass_mean, Checkpoint::holds}};

@@ -1,8 +1,10 @@
 // Plies in the step: wave moduli, the length that energies of failure are spread over, what damage lets go.
 #include "core/index.hpp"
+#include "mechanics/opening_width.hpp"
 #include "mechanics/terms/list.hpp"
 #include "plasticity/ply_update.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
@@ -71,14 +73,29 @@ template<int dim> void Plies<dim>::carried(const Body<dim>& body) {
     }
 }
 
+/// Half of the width over which point p spreads openings along its fibres or across them, the larger of both,
+/// m, in the stress-free state: the spacing in a square lattice. On a straight side of the body, where cells
+/// are half as large, it is that of cracks that run into it.
+double size_of_openings(const Body<2>& body, std::size_t p) {
+  const auto& f = body.state.point.earlier_deformation;
+  const Mat<2> F = (Mat<2>() << f[0][p], f[1][p], f[2][p], f[3][p]).finished(),
+               back = F.inverse().transpose();
+  const double angle = body.material_of(p).ply->angle;
+  const Vec2 fibre(std::cos(angle), std::sin(angle)), across = left_normal(fibre);
+  const auto width = [&](const Vec2& n) {
+    return opening_width(body.operators(), body.reference, p, F * n, back * n);
+  };
+  return 0.5 * std::max(width(fibre), width(across));
+}
+
 template<int dim> void Plies<dim>::renew(const Body<dim>& body) {
   if (!failing_) return;
   PointState<dim>& point = body.state.point;
-  for (std::size_t p = 0; p < point.size(); ++p) {
-    const auto& law = body.material_of(p).failure;
-    if (law)
-      point.failure_length[p] = law->band * std::sqrt(body.operators().volume[p] * point.stress_free[p]);
-  }
+  if constexpr (dim == 2)
+    for (std::size_t p = 0; p < point.size(); ++p) {
+      const auto& law = body.material_of(p).failure;
+      if (law) point.failure_length[p] = law->band * size_of_openings(body, p);
+    }
 }
 
 /// What is left of the shear stiffness is left of the penalty of the edge defect too.

@@ -2,6 +2,7 @@
 #include "evaluate/cutting_forces.hpp"
 #include "evaluate/cutting_result.hpp"
 #include "evaluate/ply_cut.hpp"
+#include "input/cutting_edge.hpp"
 #include "input/cutting_tool.hpp"
 #include "report/cutting_page.hpp"
 #include "report/picture_recorder.hpp"
@@ -276,6 +277,8 @@ TEST(CuttingKeys, tool_and_feed_are_found_from_the_tools) {
   EXPECT_NEAR(tool.rake, std::atan(0.9 / 3.4), 1e-12);
   EXPECT_NEAR((tool.tip - Vec2(-0.1e-3, 4.6e-3)).norm(), 0.0, 1e-12);
   EXPECT_EQ(tool.away, Vec2(0, 1));
+  EXPECT_NEAR(input::cutting_edge(cut, 0).clearance, std::atan(1.4 / 2.9), 1e-12);
+  EXPECT_EQ(input::cutting_edge(cut, 0).radius, 0.0);
   const std::string again = input::read_case_text(cut.resolved, "resolved.toml").resolved;
   EXPECT_EQ(again.substr(again.find('\n')), cut.resolved.substr(cut.resolved.find('\n')));
   const input::Case worn = input::read_small(
@@ -297,6 +300,19 @@ TEST(CuttingKeys, rounded_edges_and_any_direction_have_the_same_tip) {
   EXPECT_GT(cut.report.cutting->feed, 0.35e-3);
   EXPECT_GT(tool.begin, 0.0);
   EXPECT_NEAR(tool.tip.y(), cut.report.cutting->feed, 1e-12);
+  EXPECT_NEAR(input::cutting_edge(cut, 0).clearance, std::atan(1.4 / 2.9), 1e-12);
+  EXPECT_NEAR(input::cutting_edge(cut, 0).radius, 0.05e-3, 1e-12);
+}
+
+TEST(CuttingKeys, a_flank_begins_beyond_edge_and_chamfer) {
+  const input::Case cut = input::read_small(
+      "[tools.cutter]\nstart = \"-3 5 mm\"\npath = [{ to = \"-0.2 4.6 mm\", fillet = \"0.02 mm\" }, { to = "
+      "\"-0.1 4.7 mm\", fillet = \"0.03 mm\" }, { to = \"-0.1 8 mm\" }, { to = \"-3 8 mm\" }]\nvelocity = "
+      "\"10 0 "
+      "m/s\"\n[report.cutting]\n");
+  EXPECT_NEAR(input::cutting_tool(cut, 0).rake, 0.0, 1e-12);
+  EXPECT_NEAR(input::cutting_edge(cut, 0).clearance, std::atan(0.4 / 2.8), 1e-12);
+  EXPECT_NEAR(input::cutting_edge(cut, 0).radius, 0.03e-3, 1e-12);
 }
 
 TEST(CuttingKeys, a_window_follows_a_tool) {

@@ -2,6 +2,7 @@
 // Bodies for tests of the solver: rectangles of a method and a material.
 #include "cnem/scni.hpp"
 #include "mechanics/explicit_solver.hpp"
+#include "methods/efg.hpp"
 #include "methods/fe_simplices.hpp"
 #include "methods/hybrid.hpp"
 #include "methods/sph.hpp"
@@ -17,15 +18,16 @@ namespace cnem::testing {
 
 using namespace literals;
 
-enum class Method { cnem, triangles, sph, hybrid };
+enum class Method { cnem, triangles, sph, hybrid, efg };
 inline void PrintTo(Method method, std::ostream* out) {
-  const char* const names[] = {"cnem", "triangles", "sph", "hybrid"};
+  const char* const names[] = {"cnem", "triangles", "sph", "hybrid", "efg"};
   *out << names[static_cast<int>(method)];
 }
 
 inline std::unique_ptr<Discretisation<2>> make(Method method, Space space = Space::plane) {
   if (method == Method::triangles) return std::make_unique<methods::FeTriangles>(space);
   if (method == Method::sph) return std::make_unique<methods::Sph>();
+  if (method == Method::efg) return std::make_unique<methods::Efg>();
   if (method == Method::hybrid) // both kinds of functions in a jittered cloud of 1 mm
     return std::make_unique<methods::Hybrid>(1.1e-3, 2, space);
   return std::make_unique<scni::Cnem>(scni::Options{.space = space});

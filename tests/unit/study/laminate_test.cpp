@@ -76,8 +76,8 @@ plies = [)toml" + plies + "]\n" +
   Study study;
   bool breaks = true; ///< a chip breaks off the plies of runs that are left
   std::vector<RunRecord> runs;
-  std::vector<std::optional<CutConditions>> cuts =
-      std::vector<std::optional<CutConditions>>(3, CutConditions{0.0, 0.25e-3, 1.0});
+  std::vector<std::optional<CutConditions>> cuts = std::vector<std::optional<CutConditions>>(
+      3, CutConditions{.feed = 0.25e-3, .speed = 1.0, .friction = "none"});
 };
 
 constexpr const char* two = R"toml({ name = "top", angle = "-60 deg", thickness = "1 mm" },
@@ -117,7 +117,7 @@ TEST_F(Laminates, what_is_no_laminate_is_refused_at_its_place) {
 }
 
 TEST_F(Laminates, plies_are_cut_by_one_tool) {
-  const auto refused = [&](double CutConditions::*what, double value) {
+  const auto refused = [&](auto CutConditions::*what, const auto& value) {
     cuts[2] = cuts[0];
     (*cuts[2]).*what = value;
     return refusal(two);
@@ -127,7 +127,10 @@ TEST_F(Laminates, plies_are_cut_by_one_tool) {
   for (const auto& [message, values] :
        {std::pair{refused(&CutConditions::rake, 10.0 * degree), "a rake of 0 deg and 10 deg"},
         {refused(&CutConditions::feed, 0.3e-3), "a feed of 0.25 mm and 0.3 mm"},
-        {refused(&CutConditions::speed, 2.0), "a speed of 1 m/s and 2 m/s"}})
+        {refused(&CutConditions::speed, 2.0), "a speed of 1 m/s and 2 m/s"},
+        {refused(&CutConditions::clearance, 7.0 * degree), "a clearance of 0 deg and 7 deg"},
+        {refused(&CutConditions::edge_radius, 5e-6), "a radius of the edge of 0 mm and 5 µm"},
+        {refused(&CutConditions::friction, "other"), "a friction of none and other"}})
     EXPECT_NE(message.find(start + values + runs_there), std::string::npos) << message;
   EXPECT_EQ(refused(&CutConditions::feed, 0.25e-3 * (1.0 + 1e-14)), "accepted");
 }
@@ -143,8 +146,17 @@ TEST_F(Laminates, the_tool_is_what_the_case_of_a_run_says) {
   EXPECT_NEAR(cut.rake, 0.0, 1e-12);
   EXPECT_NEAR(cut.feed, 0.25e-3, 1e-12);
   EXPECT_NEAR(cut.speed, 1.0, 1e-12);
+  EXPECT_NEAR(cut.clearance, 7.0 * degree, 1e-12);
+  EXPECT_NEAR(cut.edge_radius, 5e-6, 1e-12);
   EXPECT_NEAR(other.feed, 0.2e-3, 1e-12);
   EXPECT_NEAR(other.speed, 2.0, 1e-12);
+  EXPECT_EQ(other.friction, cut.friction);
+  const CutConditions blunt = of({"let.clearance=10 deg", "let.edge=8 um"});
+  EXPECT_NEAR(blunt.clearance, 10.0 * degree, 1e-12);
+  EXPECT_NEAR(blunt.edge_radius, 8e-6, 1e-12);
+  for (const char* change : {"let.friction=0.2", "tools.cutter.friction.by_material.gfrp.coefficient=0.2",
+                             "tools.cutter.friction.shear_limit=100 MPa"})
+    EXPECT_NE(of({change}).friction, cut.friction) << change;
   EXPECT_NEAR(of({"time.end=25 us"}).speed, 1.0, 1e-12); // its mean is less: the ramp takes 10 us
   EXPECT_FALSE(cut_conditions(
       input::read_case_with(CNEM_SOURCE_DIR "/cases/verification/taylor_copper/case.toml", {})));
