@@ -267,14 +267,6 @@ void read_machining(Setting& root, Case& result, Diagnostics& diagnostics) {
           Mistake::range, milling.find("feed")->where, milling.find("feed")->path,
           fmt::format("takes up to {:.3g} steps at its least, expected at most {:g}", steps, most_steps));
   }
-  if (result.structure->part && result.structure->part->mapped && (!read.passes.empty() || read.drive)) {
-    const Setting& mapping = *root.find("part.mapping");
-    diagnostics.add(
-        Mistake::conflict, mapping.where, mapping.path,
-        fmt::format("found hexahedra that follow the part, expected them without {}: they lie over a "
-                    "cut straight along x, and its motion is solved in equal steps of time",
-                    read.passes.empty() ? "speeds or feeds over time" : "milling.passes"));
-  }
   constexpr double most_lines = 2e5;
   if (const Setting& pitch = *root.find("dexels.pitch");
       (read.length + 3.0 * diameter) / read.dexels.pitch > most_lines)

@@ -99,7 +99,17 @@ std::vector<input::NamedMode> modes_of(const input::Case& input) {
   std::vector<input::NamedMode> modes = input.machining->modes;
   if (input.structure->part) {
     int number = 0;
-    for (const machining::Mode& mode : modes_at_cutter(input, SolvedPart(input)))
+    const SolvedPart solved(input);
+    if (input.structure->part->mapped) { // all of them deform it; what they do at one place is not asked
+      for (const double omega : solved.modes.omega)
+        modes.push_back({machining::Mode{.of = machining::Mode::Of::part,
+                                         .frequency = omega / machining::full_turn,
+                                         .damping = input.structure->part->damping_of(omega),
+                                         .stiffness = omega * omega},
+                         fmt::format("{}", ++number)});
+      return modes;
+    }
+    for (const machining::Mode& mode : modes_at_cutter(input, solved))
       modes.push_back({mode, fmt::format("{}", ++number)});
     if (std::all_of(modes.begin(), modes.end(),
                     [](const machining::Mode& mode) { return mode.direction.head<2>().norm() < 1e-9; }))
@@ -122,6 +132,14 @@ double deepest(const input::Case& input, const std::vector<machining::Mode>& mod
 
 namespace {
 
+/// rad/s, of a mode where it is the fastest among places along a path, m.
+double fastest(const machining::Mode& mode, const std::vector<double>& places) {
+  double most = places.empty() ? mode.omega() : 0.0;
+  for (const double place : places)
+    if (mode.moves_at(place)) most = std::max(most, mode.at(place).omega());
+  return most;
+}
+
 /// Flanks that touch nothing, or as deep as chips; lobes take what they do for a damping, which waves have to
 /// be long for.
 std::vector<std::string> flank_doubts(const input::Case& input, const std::vector<input::NamedMode>& modes) {
@@ -143,7 +161,8 @@ std::vector<std::string> flank_doubts(const input::Case& input, const std::vecto
   const double slowest =
       input.analysis.type == input::Analysis::Type::stability ? milling.stability.speed_from : infinite;
   for (const input::NamedMode& mode : modes)
-    if (const double wave = slowest * milling.cut.cutter.radius() / mode.omega(); contact > wave)
+    if (const double wave = slowest * milling.cut.cutter.radius() / fastest(mode, milling.stability.places);
+        contact > wave)
       doubt("cutting.flank.land",
             fmt::format("at {} mode {} leaves waves of {} a radian, expected longer ones than the contact of "
                         "the land, {}: its damping is taken for that of long waves",
@@ -229,7 +248,10 @@ void describe(const input::Case& input, Checked& checked) {
   if (const auto& read = structure.part) {
     const machining::Part part = part_of(input);
     for (const input::PartPlace& place : read->places) displacement_at(input, part, place);
-    if (read->cutter) displacement_at_cutter(input, part);
+    if (read->mapped && input.machining->blank)
+      check_mapped_workpiece(input);
+    else if (read->cutter)
+      displacement_at_cutter(input, part);
     const Vec3& size = read->shape.size;
     checked.facts.emplace_back("part", fmt::format("{} × {} × {}, {} cells, {} unknowns",
                                                    si_format(size.x(), "m"), si_format(size.y(), "m"),

@@ -7,6 +7,7 @@
 #include "machining/structure/theoretical_tool.hpp"
 
 #include <array>
+#include <fmt/format.h>
 
 namespace cnem::app {
 
@@ -70,13 +71,16 @@ std::vector<machining::Mode> modes_at_cutter(const input::Case& input, const Sol
 
 namespace {
 
-/// Axes of the cut in the part: where the cutter is at first lies on the machined side, at the tip.
+/// Axes of the cut in the part: at the height of the tip lies where the cutter is at first, on the machined
+/// side of a straight way, or the origin of the axes in which passes are given.
 struct CutAxes {
-  explicit CutAxes(const input::Case& input) : turn(input.structure->part->to_cutter) {
+  explicit CutAxes(const input::Case& input)
+      : turn(input.structure->part->to_cutter), origin(*input.structure->part->cutter) {
+    if (!input.machining->passes.empty()) return;
     const machining::MillingCut& cut = input.machining->cut;
     const double r = cut.cutter.radius();
-    const Vec3 machined(0.0, cut.engagement.side == machining::Engagement::Side::up ? r : -r, 0.0);
-    origin = *input.structure->part->cutter - turn.transpose() * machined;
+    origin.noalias() -=
+        turn.transpose() * Vec3(0.0, cut.engagement.side == machining::Engagement::Side::up ? r : -r, 0.0);
   }
   Vec3 in_part(const Vec3& x) const { return origin + turn.transpose() * x; }
   Vec3 in_cut(const Vec3& x) const { return turn * (x - origin); }
@@ -98,10 +102,31 @@ struct CutAxes {
 
 } // namespace
 
+void check_mapped_workpiece(const input::Case& input) {
+  const input::MachiningCase& milling = *input.machining;
+  if (!milling.blank) return; // the cutter lies in the part
+  const CutAxes axes(input);
+  const Vec2 &low = milling.blank->low, &high = milling.blank->high;
+  const Vec3 one = axes.in_part(Vec3(low.x(), low.y(), 0.0)),
+             other = axes.in_part(Vec3(high.x(), high.y(), milling.axial_depth));
+  // Feed and axis may be oblique in the part: a box around what they span is enough to tell a slip.
+  const Vec3& size = input.structure->part->shape.size;
+  const Vec3 from = one.cwiseMin(other), to = one.cwiseMax(other);
+  if ((from.array() < size.array()).all() && (to.array() > 0.0).all()) return;
+  throw input.error(
+      "part.cutter",
+      fmt::format("puts the workpiece of the passes from ({:g}, {:g}, {:g}) to ({:g}, {:g}, {:g}) mm in the "
+                  "part, beside it, expected some of it within: with milling.passes part.cutter is where "
+                  "their point (0, 0) lies, at the height of the tip",
+                  1e3 * from.x(), 1e3 * from.y(), 1e3 * from.z(), 1e3 * to.x(), 1e3 * to.y(),
+                  1e3 * to.z()));
+}
+
 std::unique_ptr<machining::FlexiblePart>
-flexible_part(const input::Case& input, const machining::ProcessSettings& settings, double dt) {
+flexible_part(const input::Case& input, const machining::ProcessSettings& settings) {
   const auto& read = input.structure->part;
   if (!read || !read->mapped) return nullptr;
+  check_mapped_workpiece(input);
   const CutAxes axes(input);
   const machining::MillingCut& cut = input.machining->cut;
   const machining::Workpiece block = machining::workpiece_of(cut, settings);
@@ -115,18 +140,18 @@ flexible_part(const input::Case& input, const machining::ProcessSettings& settin
   if (read->newmark) {
     machining::Part part = part_of(input);
     SparseMatrix follow = moved_by(part);
-    machining::PresenceAt presence = [whole = part.presence()](double) { return whole; };
+    machining::PresenceAtStep presence = [whole = part.presence()](std::int64_t) { return whole; };
     if (read->taking) {
       const auto tool = std::make_shared<const machining::TheoreticalTool>(
           part, machining::MillingProcess(cut, {}, settings), [&](const Vec3& x) { return axes.in_cut(x); },
-          machining::TheoreticalTool::Intervals{dt, read->taking->interval, read->taking->most});
-      presence = [tool](double time) { return tool->presence(time); };
+          machining::TheoreticalTool::Intervals{read->taking->interval, read->taking->most});
+      presence = [tool](std::int64_t step) { return tool->presence(step); };
     }
     return std::make_unique<machining::FlexiblePart>(
         std::move(map),
         std::make_unique<machining::NewmarkMotion>(
             std::move(part), std::move(follow),
-            machining::NewmarkMotion::Settings{dt, read->taking ? read->taking->interval : 0,
+            machining::NewmarkMotion::Settings{read->taking ? read->taking->interval : 0,
                                                read->rayleigh.value_or(machining::Rayleigh{})},
             std::move(presence)));
   }
@@ -136,7 +161,7 @@ flexible_part(const input::Case& input, const machining::ProcessSettings& settin
     coordinates.push_back({solved.modes.omega[i], read->damping_of(solved.modes.omega[i])});
   return std::make_unique<machining::FlexiblePart>(
       std::move(map),
-      std::make_unique<machining::ModalMotion>(moved_by(solved.part) * solved.modes.shape, coordinates, dt));
+      std::make_unique<machining::ModalMotion>(moved_by(solved.part) * solved.modes.shape, coordinates));
 }
 
 } // namespace cnem::app

@@ -37,8 +37,11 @@ struct SolvedPart {
 std::vector<machining::Mode> modes_at_cutter(const input::Case& input, const SolvedPart& part);
 
 /// The part of a cut that is mapped by hexahedra (part.mapping), as modes or whole; none without one. What
-/// the tool takes of it is known from a rigid run. dt: s, of a step.
+/// the tool takes of it is known from a rigid run.
 std::unique_ptr<machining::FlexiblePart> flexible_part(const input::Case& input,
-                                                       const machining::ProcessSettings& settings, double dt);
+                                                       const machining::ProcessSettings& settings);
+/// Throws InputError where the workpiece of passes has nothing in common with the part that they are mapped
+/// into.
+void check_mapped_workpiece(const input::Case& input);
 
 } // namespace cnem::app

@@ -64,4 +64,18 @@ TEST(FlexibleParts, EndWhereHexahedraFoldAndLeaveTheLastGoodStep) {
   EXPECT_FALSE(results::list_checkpoints(folder.path()).empty());
 }
 
+TEST(FlexibleParts, LedgerAddsUpWhileTheyLoseMatter) { // cutting, held, damped and what leaves with chips
+  std::vector<double> residual;
+  for (const int steps : {360, 720}) {
+    const FinishedRun done = finish(milling_case(
+        "wall_removal", {"milling.length=4.5 mm", "part.removal.interval=60",
+                         "dexels.steps=" + std::to_string(steps), "part.rayleigh.stiffness=2 us"}));
+    for (const char* energy : {"chips", "damping", "kinetic", "elastic"})
+      EXPECT_GT(done.metric(std::string("milling.energy.") + energy), 0.0) << energy;
+    residual.push_back(done.status.energy_residual);
+  }
+  EXPECT_LT(residual[0], 3e-5); // the part alone takes 6e-3
+  EXPECT_LT(residual[1], 0.5 * residual[0]);
+}
+
 } // namespace cnem::testing
