@@ -2,7 +2,6 @@
 
 #include "core/error.hpp"
 #include "core/index.hpp"
-#include "input/case_machining.hpp"
 #include "machining/structure/newmark_motion.hpp"
 #include "machining/structure/theoretical_tool.hpp"
 
@@ -46,19 +45,49 @@ SparseMatrix displacement_at_cutter(const input::Case& input, const machining::P
                [&] { return part.displacement_at(std::array{*input.structure->part->cutter}); });
 }
 
+namespace {
+
+machining::Eigenmodes modes_of_part(const input::Case& input, const SparseMatrix& stiffness,
+                                    const SparseMatrix& mass) {
+  return about(input, "part",
+               [&] { return machining::lowest_modes(stiffness, mass, input.structure->part->count); });
+}
+
+} // namespace
+
 SolvedPart::SolvedPart(const input::Case& input)
     : part(part_of(input)), stiffness(part.stiffness(part.presence())), mass(part.mass(part.presence())),
-      modes(about(input, "part",
-                  [&] { return machining::lowest_modes(stiffness, mass, input.structure->part->count); })) {}
+      modes(modes_of_part(input, stiffness, mass)) {}
+
+SolvedPart::SolvedPart(const input::Case& input, machining::Part of, const std::vector<double>& presence)
+    : part(std::move(of)), stiffness(part.stiffness(presence)), mass(part.mass(presence)),
+      modes(modes_of_part(input, stiffness, mass)) {}
+
+namespace {
+
+Vec3 cutter_on_the_way(const input::PartCase& part, double place) {
+  return *part.cutter + place * part.to_cutter.row(0).transpose();
+}
+
+} // namespace
+
+SparseMatrix displacement_on_the_way(const input::Case& input, const machining::Part& part, double place) {
+  return about(input, "stability.places", [&] {
+    return part.displacement_at(std::array{cutter_on_the_way(*input.structure->part, place)});
+  });
+}
 
 bool is_felt(const machining::Eigenmodes& modes, Eigen::Index mode, const Vec3& motion) {
   constexpr double still = 1e-9;
   return motion.norm() > still * modes.shape.col(mode).cwiseAbs().maxCoeff();
 }
 
-std::vector<machining::Mode> modes_at_cutter(const input::Case& input, const SolvedPart& solved) {
-  const input::PartCase& part = *input.structure->part;
-  const Eigen::MatrixXd motion = displacement_at_cutter(input, solved.part) * solved.modes.shape;
+namespace {
+
+/// Modes of a part where some place moves as `rows` say, along axes of the cut.
+std::vector<machining::Mode> modes_along(const input::PartCase& part, const SolvedPart& solved,
+                                         const SparseMatrix& rows) {
+  const Eigen::MatrixXd motion = rows * solved.modes.shape;
   std::vector<machining::Mode> modes;
   for (Eigen::Index i = 0; i < solved.modes.count(); ++i) {
     const Vec3 shape = part.to_cutter * motion.col(i);
@@ -67,6 +96,44 @@ std::vector<machining::Mode> modes_at_cutter(const input::Case& input, const Sol
       modes.push_back(machining::mode_at(omega, part.damping_of(omega), shape, machining::Mode::Of::part));
   }
   return modes;
+}
+
+} // namespace
+
+std::vector<machining::Mode> modes_at_cutter(const input::Case& input, const SolvedPart& solved) {
+  return modes_along(*input.structure->part, solved, displacement_at_cutter(input, solved.part));
+}
+
+std::vector<input::NamedMode> modes_met(const input::Case& input, double place) {
+  std::vector<input::NamedMode> there;
+  for (const input::NamedMode& mode : input.machining->modes)
+    if (mode.moves_at(place)) there.push_back({mode.at(place), mode.name});
+  if (!input.structure->part) return there;
+  const input::PartCase& read = *input.structure->part;
+  const Vec3 feed = read.to_cutter.row(0).transpose(), cutter = cutter_on_the_way(read, place);
+  machining::Part part = part_of(input);
+  std::vector<double> presence = part.presence();
+  if (auto box = input.machining->stability.takes) {
+    Eigen::Index axis = 0;
+    feed.cwiseAbs().maxCoeff(&axis);
+    double& end = (feed[axis] > 0.0 ? box->high : box->low)[axis];
+    end = feed[axis] > 0.0 ? std::min(end, cutter[axis]) : std::max(end, cutter[axis]);
+    constexpr double most = 0.999; // as what tools take in time
+    if (box->low[axis] < box->high[axis])
+      presence = machining::presence_without(part, box->low, box->high, most);
+  }
+  const SolvedPart solved(input, std::move(part), presence);
+  const SparseMatrix rows = displacement_on_the_way(input, solved.part, place);
+  int number = 0;
+  for (const machining::Mode& mode : modes_along(read, solved, rows))
+    there.push_back({mode, fmt::format("{}", ++number)});
+  return there;
+}
+
+std::string mode_row(const std::string& of, const std::string& name, const machining::Mode& mode,
+                     const std::string& place) {
+  return fmt::format("{},{},{},{},{},{},{},{},{},{}\n", of, name, mode.frequency, mode.damping, place,
+                     mode.stiffness, mode.mass(), mode.direction.x(), mode.direction.y(), mode.direction.z());
 }
 
 namespace {
@@ -118,12 +185,11 @@ void check_mapped_workpiece(const input::Case& input) {
       fmt::format("puts the workpiece of the passes from ({:g}, {:g}, {:g}) to ({:g}, {:g}, {:g}) mm in the "
                   "part, beside it, expected some of it within: with milling.passes part.cutter is where "
                   "their point (0, 0) lies, at the height of the tip",
-                  1e3 * from.x(), 1e3 * from.y(), 1e3 * from.z(), 1e3 * to.x(), 1e3 * to.y(),
-                  1e3 * to.z()));
+                  1e3 * from.x(), 1e3 * from.y(), 1e3 * from.z(), 1e3 * to.x(), 1e3 * to.y(), 1e3 * to.z()));
 }
 
-std::unique_ptr<machining::FlexiblePart>
-flexible_part(const input::Case& input, const machining::ProcessSettings& settings) {
+std::unique_ptr<machining::FlexiblePart> flexible_part(const input::Case& input,
+                                                       const machining::ProcessSettings& settings) {
   const auto& read = input.structure->part;
   if (!read || !read->mapped) return nullptr;
   check_mapped_workpiece(input);
