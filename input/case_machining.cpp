@@ -4,6 +4,8 @@
 #include "input/case_parts.hpp"
 #include "input/case_structure.hpp"
 #include "input/constants.hpp"
+#include "input/schema/document.hpp"
+#include "input/schema/nearest.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -192,6 +194,39 @@ void check_time_domain(const Setting& root, const MachiningCase& read, Analysis:
                                 read.dexels.steps, std::ceil(2.0 * machining::full_turn / closest)));
 }
 
+/// The zone of the part that charts over places let go.
+void read_takes(const Setting& root, const std::optional<PartCase>& part, StabilityRange& range,
+                Diagnostics& diagnostics) {
+  const Setting* takes = root.find("stability.takes");
+  if (!takes) return;
+  const auto refuse = [&](const Setting& where, const std::string& what) {
+    diagnostics.add(Mistake::conflict, where.where, where.path, what);
+  };
+  if (range.places.empty()) {
+    refuse(*takes, "found without stability.places, expected places along the way on which it is taken");
+    return;
+  }
+  if (!part) {
+    refuse(*takes, "found without a [part], expected one with this zone: modes.*.frequency_along tells what "
+                   "becomes of modes that are given");
+    return;
+  }
+  const auto& name = std::get<std::string>(takes->value);
+  std::vector<std::string> zones;
+  for (const Setting& zone : root.entries("part.zones")) {
+    zones.push_back(zone.name);
+    if (zone.name == name) range.takes = {zone.get<Vec3>("from"), zone.get<Vec3>("to")};
+  }
+  if (!range.takes)
+    diagnostics.add(Mistake::reference, takes->where, takes->path,
+                    fmt::format("found {}, expected a zone of part.zones{}", toml_quoted(shortened(name)),
+                                did_you_mean(name, zones)));
+  constexpr double along = 1.0 - 1e-9;
+  if (part->to_cutter.row(0).cwiseAbs().maxCoeff() < along)
+    refuse(*root.find("part.feed"), "found a direction that is oblique to the part, expected one along its "
+                                    "x, y or z: stability.takes is a box that ends at the cutter");
+}
+
 } // namespace
 
 void read_machining(Setting& root, Case& result, Diagnostics& diagnostics) {
@@ -267,14 +302,6 @@ void read_machining(Setting& root, Case& result, Diagnostics& diagnostics) {
           Mistake::range, milling.find("feed")->where, milling.find("feed")->path,
           fmt::format("takes up to {:.3g} steps at its least, expected at most {:g}", steps, most_steps));
   }
-  if (result.structure->part && result.structure->part->mapped && (!read.passes.empty() || read.drive)) {
-    const Setting& mapping = *root.find("part.mapping");
-    diagnostics.add(
-        Mistake::conflict, mapping.where, mapping.path,
-        fmt::format("found hexahedra that follow the part, expected them without {}: they lie over a "
-                    "cut straight along x, and its motion is solved in equal steps of time",
-                    read.passes.empty() ? "speeds or feeds over time" : "milling.passes"));
-  }
   constexpr double most_lines = 2e5;
   if (const Setting& pitch = *root.find("dexels.pitch");
       (read.length + 3.0 * diameter) / read.dexels.pitch > most_lines)
@@ -290,7 +317,9 @@ void read_machining(Setting& root, Case& result, Diagnostics& diagnostics) {
                     static_cast<int>(range.get<std::int64_t>("speeds")),
                     range.maybe<double>("depth_to"),
                     static_cast<int>(range.get<std::int64_t>("depths")),
-                    range.maybe<std::vector<double>>("places").value_or(std::vector<double>{})};
+                    range.maybe<std::vector<double>>("places").value_or(std::vector<double>{}),
+                    std::nullopt};
+  read_takes(root, result.structure->part, read.stability, diagnostics);
   if (const auto& places = read.stability.places;
       !std::is_sorted(places.begin(), places.end(), std::less_equal<>()) && places.size() > 1)
     diagnostics.add(Mistake::range, range.find("places")->where, range.find("places")->path,

@@ -21,6 +21,10 @@ struct StabilityRange {
   std::optional<double> depth_to; ///< m; none: as deep as is of interest
   int depths = 100;
   std::vector<double> places; ///< m along the path, of a chart over them; none: there is none
+  struct Box {
+    Vec3 low, high; ///< m
+  };
+  std::optional<Box> takes; ///< of the part: what the cutter takes on its way
 };
 
 /// How a cut in the time domain is resolved.

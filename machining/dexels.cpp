@@ -61,34 +61,45 @@ DexelLayer::DexelLayer(const Vec2& low, const Vec2& high, const Vec2& pitch) : l
 DexelLayer::DexelLayer(const Vec2& low, const Vec2& high, const Vec2& pitch,
                        const std::vector<std::array<Vec2, 4>>& pieces)
     : DexelLayer(low, high, pitch) {
-  const double least = nothing * size_.prod();
-  std::vector<Pieces> within(cell_.size());
-  for (const std::array<Vec2, 4>& piece : pieces) {
-    // Of a trapezoid that ends in a tip the side without length divides nothing.
-    std::vector<Side> sides;
-    for (std::size_t k = 0; k < 4; ++k)
-      if (piece[k] != piece[(k + 1) % 4]) sides.push_back(Side::through(piece[k], piece[(k + 1) % 4]));
-    if (sides.size() < 3) continue;
-    Vec2 least_corner = piece[0], most_corner = piece[0];
-    for (const Vec2& corner : piece) {
-      least_corner = least_corner.cwiseMin(corner);
-      most_corner = most_corner.cwiseMax(corner);
+  cell_.assign(cell_.size(), empty);
+  const double least = nothing * size_.prod(), whole = size_.prod() * (1.0 - 1e-12);
+  std::vector<std::vector<std::size_t>> of_row(count_[1]);
+  const auto extent = [&](std::size_t piece, int axis) {
+    double from = HUGE_VAL, to = -HUGE_VAL;
+    for (const Vec2& corner : pieces[piece]) {
+      from = std::min(from, corner[axis]);
+      to = std::max(to, corner[axis]);
     }
-    const auto [from_x, to_x] = range(0, least_corner.x(), most_corner.x());
-    const auto [from_y, to_y] = range(1, least_corner.y(), most_corner.y());
-    for (std::size_t i = from_x; i < to_x; ++i)
-      for (std::size_t j = from_y; j < to_y; ++j)
-        if (division.divide<false>(square(i, j), sides, ~0U, least)) within[cell(i, j)].add(division.within);
-  }
-  for (std::size_t k = 0; k < cell_.size(); ++k) {
-    double area = 0.0;
-    for (std::size_t p = 0, begin = 0; p < within[k].size.size(); ++p)
-      area += area_of(within[k].next(p, begin));
-    if (area < size_.prod() * (1.0 - 1e-12)) {
-      cell_[k] = empty;
-      if (within[k].size.empty()) continue;
-      cell_[k] = static_cast<std::int32_t>(cut_.size());
-      cut_.push_back(std::move(within[k]));
+    return range(axis, from, to);
+  };
+  for (std::size_t p = 0; p < pieces.size(); ++p)
+    for (auto [j, end] = extent(p, 1); j < end; ++j) of_row[j].push_back(p);
+  // Row by row: what lies within cells is kept of those alone that are not full.
+  std::vector<Pieces> within(count_[0]);
+  for (std::size_t j = 0; j < count_[1]; ++j) {
+    for (const std::size_t p : of_row[j]) {
+      // Of a trapezoid that ends in a tip the side without length divides nothing.
+      std::vector<Side> sides;
+      for (std::size_t k = 0; k < 4; ++k)
+        if (const Vec2& one = pieces[p][k], &next = pieces[p][(k + 1) % 4]; one != next)
+          sides.push_back(Side::through(one, next));
+      if (sides.size() < 3) continue;
+      for (auto [i, end] = extent(p, 0); i < end; ++i)
+        if (division.divide<false>(square(i, j), sides, ~0U, least)) within[i].add(division.within);
+    }
+    for (std::size_t i = 0; i < count_[0]; ++i) {
+      if (within[i].size.empty()) continue;
+      double area = 0.0;
+      for (std::size_t p = 0, begin = 0; p < within[i].size.size(); ++p)
+        area += area_of(within[i].next(p, begin));
+      if (area >= whole)
+        cell_[cell(i, j)] = full;
+      else {
+        cell_[cell(i, j)] = static_cast<std::int32_t>(cut_.size());
+        cut_.push_back(within[i]);
+      }
+      within[i].corner.clear();
+      within[i].size.clear();
     }
   }
 }

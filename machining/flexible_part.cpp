@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/index.hpp"
+#include "machining/milling_ledger.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -10,24 +11,35 @@
 
 namespace cnem::machining {
 
-ModalMotion::ModalMotion(Eigen::MatrixXd follow, const std::vector<Coordinate>& coordinates, double dt)
-    : follow_(std::move(follow)), flexibility_(follow_.cols()),
-      state_(Eigen::MatrixXd::Zero(2, follow_.cols())) {
+ModalMotion::ModalMotion(Eigen::MatrixXd follow, const std::vector<Coordinate>& coordinates)
+    : follow_(std::move(follow)), state_(Eigen::MatrixXd::Zero(2, follow_.cols())) {
   assert(follow_.cols() == as<Eigen::Index>(coordinates.size()));
-  for (std::size_t i = 0; i < coordinates.size(); ++i) {
-    const auto& [omega, damping] = coordinates[i];
-    flexibility_[as<Eigen::Index>(i)] = 1.0 / (omega * omega);
-    free_.emplace_back(
-        Mode{.frequency = omega / (2.0 * std::numbers::pi), .damping = damping, .stiffness = omega * omega},
-        dt);
+  for (const auto& [omega, damping] : coordinates)
+    mode_.push_back(
+        {.frequency = omega / (2.0 * std::numbers::pi), .damping = damping, .stiffness = omega * omega});
+}
+
+void ModalMotion::begin(double dt) {
+  if (dt == dt_) return;
+  dt_ = dt;
+  free_.clear();
+  loss_.clear();
+  for (const Mode& mode : mode_) {
+    free_.emplace_back(mode, dt);
+    loss_.push_back(damping_loss(mode, dt));
   }
 }
 
+double ModalMotion::rest_of(std::size_t i, const Eigen::VectorXd& load) const {
+  return follow_.col(as<Eigen::Index>(i)).dot(load) / mode_[i].stiffness;
+}
+
 Eigen::MatrixXd ModalMotion::moved(const Eigen::VectorXd& load) const {
+  assert(free_.size() == mode_.size());
   Eigen::MatrixXd state = state_;
   for (std::size_t i = 0; i < free_.size(); ++i) {
     const auto column = as<Eigen::Index>(i);
-    const Vec2 rest(flexibility_[column] * follow_.col(column).dot(load), 0.0);
+    const Vec2 rest(rest_of(i, load), 0.0);
     state.col(column) = rest + free_[i].of_state * (state_.col(column) - rest);
   }
   return state;
@@ -37,7 +49,24 @@ Eigen::VectorXd ModalMotion::ask(const Eigen::VectorXd& load) const {
   return follow_ * moved(load).row(0).transpose();
 }
 
-void ModalMotion::take(const Eigen::VectorXd& load) { state_ = moved(load); }
+void ModalMotion::take(const Eigen::VectorXd& load) {
+  Eigen::MatrixXd state = moved(load);
+  energy_.work += load.dot(follow_ * (state.row(0) - state_.row(0)).transpose());
+  energy_.kinetic = energy_.elastic = 0.0;
+  for (std::size_t i = 0; i < mode_.size(); ++i) {
+    const auto column = as<Eigen::Index>(i);
+    const Vec2 begin = state_.col(column) - Vec2(rest_of(i, load), 0.0);
+    energy_.damping += begin.dot(loss_[i] * begin);
+    energy_.elastic += 0.5 * mode_[i].stiffness * state(0, column) * state(0, column);
+    energy_.kinetic += 0.5 * mode_[i].stiffness * state(1, column) * state(1, column);
+  }
+  state_ = std::move(state);
+}
+
+void ModalMotion::rest() {
+  lose_what_it_holds();
+  state_.setZero();
+}
 
 void ModalMotion::archive(Archive& archive) {
   std::vector<double> numbers(state_.data(), state_.data() + state_.size());
@@ -45,10 +74,13 @@ void ModalMotion::archive(Archive& archive) {
   if (as<Eigen::Index>(numbers.size()) != state_.size())
     throw IoError("milling/part/modes holds no modes of this case");
   std::copy(numbers.begin(), numbers.end(), state_.data());
+  energy_.archive(archive, "milling/part/energy/");
 }
 
 double ModalMotion::frequency() const {
-  return 1.0 / (2.0 * std::numbers::pi * std::sqrt(flexibility_.maxCoeff()));
+  double lowest = mode_.front().frequency;
+  for (const Mode& mode : mode_) lowest = std::min(lowest, mode.frequency);
+  return lowest;
 }
 
 HexahedralMap hexahedra_over(const Vec3& low, const Vec3& high, double radius,
@@ -72,9 +104,21 @@ void FlexiblePart::check() const {
         -1, "displacement");
 }
 
+void FlexiblePart::rest() {
+  motion_->rest();
+  load_.setZero();
+  end_.displace(Eigen::VectorXd::Zero(end_.unknowns()));
+  begin_ = end_;
+}
+
 void FlexiblePart::take() {
   motion_->take(load_);
   begin_ = end_;
+}
+
+void FlexiblePart::go_back(const Eigen::VectorXd& load) {
+  load_ = load;
+  end_ = begin_;
 }
 
 void FlexiblePart::archive(Archive& archive) {

@@ -48,25 +48,29 @@ ToolMotion motion_of(const MillingCut& cut, const ProcessSettings& settings) {
   return {settings.spindle, feed_speed, settings.steps, start, settings.length, settings.dwell};
 }
 
-void MillingProcess::take_blank() {
-  using enum ProcessSettings::Start;
+Vec2 MillingProcess::cells() const {
   // Cells of about a degree of the cutter are the fastest, measured; what is taken does not depend on them.
   constexpr double degrees = 60.0;
-  const Vec2 pitch = Vec2::Constant(std::max(settings_.pitch, cut_.cutter.radius() / degrees));
+  return Vec2::Constant(std::max(settings_.pitch, cut_.cutter.radius() / degrees));
+}
+
+DexelLayer MillingProcess::stock(std::size_t layer) const {
+  assert(settings_.blank);
+  const Blank& blank = *settings_.blank;
+  if (blank.surface.triangles.empty()) return {blank.low, blank.high, cells()};
+  return {blank.low, blank.high, cells(), section_pieces(blank.surface, height(layer))};
+}
+
+void MillingProcess::take_blank() {
+  using enum ProcessSettings::Start;
   if (settings_.blank) {
-    const Blank& blank = *settings_.blank;
-    for (std::size_t k = 0; k < edges_.layers(); ++k) {
-      if (blank.surface.triangles.empty())
-        layer_.push_back(k > 0 ? layer_.back() : DexelLayer(blank.low, blank.high, pitch));
-      else
-        layer_.emplace_back(blank.low, blank.high, pitch, section_pieces(blank.surface, height(k)));
-    }
+    for (std::size_t k = 0; k < edges_.layers(); ++k) layer_.push_back(stock(k));
     block_ = volume();
     return;
   }
   const Workpiece block = workpiece();
   const Vec2 low = block.low.head<2>(), high = block.high.head<2>();
-  const DexelLayer whole(low, high, pitch);
+  const DexelLayer whole(low, high, cells());
   block_ = whole.area() * settings_.axial_depth;
   for (std::size_t k = 0; k < edges_.layers();
        ++k) { // what earlier turns have left: the disc, and its way there
@@ -84,22 +88,17 @@ void MillingProcess::take_blank() {
 }
 
 void MillingProcess::begin_pass(std::size_t pass) {
-  // On its way there, in the air, what vibrates comes to rest.
-  ledger_.damping += ledger_.kinetic + ledger_.elastic;
-  ledger_.kinetic = ledger_.elastic = 0.0;
-  state_.setZero();
-  shift_.assign(layer_.size(), Vec3::Zero());
-  force_ = shift_;
-  if (flanks_) flanks_->clear();
-  const Vec2 at = axis_at(static_cast<double>(step_));
+  const Vec2 at = way_at(static_cast<double>(step_)).at;
   for (std::size_t k = 0; k < layer_.size(); ++k) {
     const double radius = edges_.radius(k);
+    if (settings_.start == ProcessSettings::Start::hole) {
+      layer_[k].erase_disc(at, radius);
+      continue;
+    }
     DexelLayer without = layer_[k];
     const double there = without.erase_disc(at, radius);
     constexpr double touches = 1e-6; // of the area of the cutter
-    if (settings_.start == ProcessSettings::Start::hole)
-      layer_[k] = std::move(without);
-    else if (there > touches * radius * radius)
+    if (there > touches * radius * radius)
       throw DivergenceError(
           fmt::format("pass {} begins in matter: {:.4g} mm² of it lie within the cutter at ({:.6g}, {:.6g}) "
                       "mm, {:.4g} "
@@ -107,6 +106,15 @@ void MillingProcess::begin_pass(std::size_t pass) {
                       pass + 1, 1e6 * there, 1e3 * at.x(), 1e3 * at.y(), 1e3 * height(k)),
           -1, "displacement");
   }
+  ++passes_begun_;
+  // On its way there, in the air, what vibrates comes to rest.
+  ledger_.damping += ledger_.kinetic + ledger_.elastic;
+  ledger_.kinetic = ledger_.elastic = 0.0;
+  state_.setZero();
+  shift_.assign(layer_.size(), Vec3::Zero());
+  force_ = shift_;
+  if (flanks_) flanks_->clear();
+  if (part_) part_->rest();
 }
 
 double MillingProcess::volume() const {
@@ -122,14 +130,20 @@ std::optional<double> MillingProcess::left_at(std::size_t layer, double x) const
   return up ? edges_.radius(layer) - matter.back().low : matter.front().high + edges_.radius(layer);
 }
 
-std::optional<double> MillingProcess::left_beside(std::size_t layer, double way) const {
+std::optional<double> MillingProcess::left_beside(std::size_t layer, double way,
+                                                  const DexelLayer& stock) const {
   assert(motion_.last_path());
   const auto [at, along] = motion_.last_path()->at(way);
-  const bool up = cut_.engagement.side == Engagement::Side::up;
   const double r = edges_.radius(layer);
-  const std::vector<Interval> matter = layer_[layer].matter(at, up ? left_normal(along) : right_normal(along),
-                                                            cut_.cutter.radius() + beyond(cut_.cutter));
+  const auto beside = [&](const DexelLayer& of) {
+    return of.matter(at, machined_side(along), cut_.cutter.radius() + beyond(cut_.cutter));
+  };
+  const std::vector<Interval> matter = beside(layer_[layer]);
   if (matter.empty()) return std::nullopt;
+  constexpr double taken = 1e-9; // m
+  if (const std::vector<Interval> before = beside(stock);
+      !before.empty() && !(matter.back().low > before.back().low + taken))
+    return std::nullopt;
   return r - matter.back().low;
 }
 

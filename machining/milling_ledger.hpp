@@ -9,22 +9,23 @@
 
 namespace cnem::machining {
 
-/// What drives have put in since the begin of a run, where it went, and what modes hold now. All J.
+/// What drives have put in since the begin of a run, where it went, and what modes, and a part that deforms,
+/// hold now. All J.
 struct MillingLedger {
   double spindle = 0.0;   ///< by the torque of the spindle
   double feed = 0.0;      ///< by the drive of the feed, against the forces on the cutter
   double cutting = 0.0;   ///< of edges along their own ways relative to the part: into chips and surface
   double ploughing = 0.0; ///< of flanks, along the same ways: into the surface
-  double damping = 0.0;   ///< lost in modes
-  double part = 0.0;      ///< taken by a part that deforms: into its motion and its damping
-  double kinetic = 0.0, elastic = 0.0; ///< of modes, at present
+  double damping = 0.0;   ///< lost in modes and part
+  double chips = 0.0;     ///< that matter had, kinetic and elastic, which has left the part
+  double kinetic = 0.0, elastic = 0.0; ///< of modes and part, at present
 
   /// What goes in less what is found.
   double residual() const {
-    return spindle + feed - cutting - ploughing - damping - part - kinetic - elastic;
+    return spindle + feed - cutting - ploughing - damping - chips - kinetic - elastic;
   }
   /// The same as a share of what has gone through. Elements of edges are rigid in a step: it is of the order
-  /// of the square of the angle of one.
+  /// of the square of the angle of one, and where K̂⁻¹ of a part is interpolated of the square of an interval.
   double share() const {
     const double through = std::max({std::abs(spindle), std::abs(cutting), kinetic + elastic});
     return through > 0.0 ? std::abs(residual()) / through : 0.0;
@@ -35,7 +36,7 @@ struct MillingLedger {
                                       {"cutting", &cutting},
                                       {"ploughing", &ploughing},
                                       {"damping", &damping},
-                                      {"part", &part},
+                                      {"chips", &chips},
                                       {"kinetic", &kinetic},
                                       {"elastic", &elastic}})
       archive.number(std::string("milling/ledger/") + name, "J", *value);

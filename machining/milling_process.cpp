@@ -1,6 +1,7 @@
 #include "machining/milling_process.hpp"
 
 #include "core/error.hpp"
+#include "core/index.hpp"
 #include "core/machine/parallel.hpp"
 
 #include <algorithm>
@@ -19,7 +20,6 @@ MillingProcess::MillingProcess(MillingCut cut, std::vector<Mode> modes, const Pr
       edges_(cut_, settings.axial_depth, settings.layers, full_turn / settings.steps),
       part_(std::move(part)) {
   assert(settings.passes.empty() == !settings.blank);
-  assert(!part_ || (settings.passes.empty() && !settings.drive));
   take_blank();
   for (const Mode& mode : modes_) {
     free_.emplace_back(mode, dt_);
@@ -28,6 +28,7 @@ MillingProcess::MillingProcess(MillingCut cut, std::vector<Mode> modes, const Pr
   state_ = Eigen::MatrixXd::Zero(2, static_cast<Eigen::Index>(modes_.size()));
   bite_.resize(edges_.layers() * edges_.teeth());
   way_.resize(bite_.size());
+  sweep_.resize(bite_.size());
   if (part_) edge_.resize(bite_.size());
   if (cut_.flank.presses()) {
     std::vector<double> radius;
@@ -40,7 +41,16 @@ MillingProcess::MillingProcess(MillingCut cut, std::vector<Mode> modes, const Pr
   force_ = shift_;
 }
 
-Vec2 MillingProcess::axis_at(double at) const { return motion_.axis(motion_.pass_of(step_), at); }
+ToolPath::Place MillingProcess::way_at(double at) const { return motion_.place(motion_.pass_of(step_), at); }
+
+MillingProcess MillingProcess::rigid() const {
+  MillingProcess still(cut_, {}, settings_);
+  still.layer_ = layer_;
+  still.step_ = step_;
+  still.passes_begun_ = passes_begun_;
+  still.farthest_ = farthest_; // matter lies as deep
+  return still;
+}
 
 bool MillingProcess::at_end() const { return motion_.at_end(step_); }
 
@@ -52,13 +62,13 @@ void MillingProcess::begin_step() {
       loss_[i] = damping_loss(modes_[i], dt_);
     }
   }
-  if (settings_.passes.empty()) return;
-  const std::size_t pass = motion_.pass_of(step_);
-  if (motion_.passes()[pass].begin == step_) begin_pass(pass);
+  if (!settings_.passes.empty())
+    if (const std::size_t pass = motion_.pass_of(step_); index_of(passes_begun_) == pass) begin_pass(pass);
+  if (part_) part_->begin_step(dt_);
 }
 
 void MillingProcess::take_shapes() {
-  const double x = axis_at(static_cast<double>(step_) + 0.5).x();
+  const double x = way_at(static_cast<double>(step_) + 0.5).at.x();
   for (std::size_t i = 0; i < modes_.size(); ++i)
     for (std::size_t k = 0; k < layer_.size(); ++k)
       shape_(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(i)) = modes_[i].shape(x, height(k));
@@ -77,7 +87,7 @@ MillingProcess::PerLayer MillingProcess::shift_of(const Eigen::MatrixXd& state) 
 
 CutterPlace MillingProcess::place(std::int64_t step) const {
   const double at = static_cast<double>(step);
-  const Vec2 axis = axis_at(at);
+  const Vec2 axis = way_at(at).at;
   return {Vec3(axis.x(), axis.y(), 0.0), full_turn * (at / settings_.steps)};
 }
 
@@ -124,16 +134,15 @@ Sweep MillingProcess::in_material(std::size_t layer, std::size_t tooth,
 }
 
 MillingProcess::PerLayer MillingProcess::relative(const PerLayer& shift) const {
-  const double r = cut_.cutter.radius();
-  const double side = cut_.engagement.side == Engagement::Side::up ? r : -r;
+  const auto [at, along] = way_at(static_cast<double>(step_));
+  const Vec2 side = at + cut_.cutter.radius() * machined_side(along);
   PerLayer beside = shift;
   for (std::size_t k = 0; k < beside.size(); ++k)
-    beside[k] -= part_->end().displacement(Vec3(axis().x(), side, height(k)));
+    beside[k] -= part_->end().displacement(Vec3(side.x(), side.y(), height(k)));
   return beside;
 }
 
-template<class TakeBite>
-EdgeLoad MillingProcess::bear(const PerLayer& shift, PerLayer& force, TakeBite&& bite) {
+void MillingProcess::sweep_edges(const PerLayer& shift) {
   const CutterPlace from = place(step_), to = place(step_ + 1);
   const auto shifted = [](CutterPlace place, const Vec3& by) {
     place.axis += by;
@@ -147,25 +156,44 @@ EdgeLoad MillingProcess::bear(const PerLayer& shift, PerLayer& force, TakeBite&&
     const double r = edges_.radius(k), depth = std::min(deep, std::max(r - forward, 0.5 * r));
     const CutterPlace first = shifted(from, shift_[k]), last = shifted(to, shift[k]);
     for (std::size_t j = 0; j < edges_.teeth(); ++j) {
-      Sweep sweep{edges_.rake(k, j, first, depth), edges_.rake(k, j, last, depth)};
-      double lifted = 0.0; // m, by the part, along the axis
+      const std::size_t i = k * edges_.teeth() + j;
+      Sweep& sweep = sweep_[i];
+      sweep = {edges_.rake(k, j, first, depth), edges_.rake(k, j, last, depth)};
+      Vec2 turned = Vec2::Zero(); // m, by which the part turns and strains the way
+      double lifted = 0.0;        // m, by the part, along the axis
       if (part_) {
         failure.guard(static_cast<std::ptrdiff_t>(k), [&] {
           sweep = in_material(k, j, {first, last}, depth, sweep);
         });
         const Vec2 middle = 0.5 * (sweep.from.edge + sweep.to.edge);
         const Vec3 edge(middle.x(), middle.y(), height(k));
-        lifted = part_->end().displacement(edge).z() - part_->begin().displacement(edge).z();
-        edge_[k * edges_.teeth() + j] = edge;
+        const Vec3 by = part_->end().displacement(edge) - part_->begin().displacement(edge);
+        const auto at = [&](const Vec2& x) { return Vec3(x.x(), x.y(), height(k)); };
+        turned = (part_->end().displacement(at(sweep.to.edge)) -
+                  part_->begin().displacement(at(sweep.from.edge)) - by)
+                     .head<2>();
+        lifted = by.z();
+        edge_[i] = edge;
       }
-      const Vec2 way = sweep.to.edge - sweep.from.edge;
-      way_[k * edges_.teeth() + j] = {way.x(), way.y(), last.axis.z() - first.axis.z() - lifted};
-      const std::size_t i = k * edges_.teeth() + j;
-      bite_[i] = bite(k, sweep);
-      if (flanks_) pressed_[i] = flanks_->pressed(i, edges_.arm(k, j, last), way_of(i));
+      const Vec2 way = sweep.to.edge - sweep.from.edge + turned;
+      way_[i] = {way.x(), way.y(), last.axis.z() - first.axis.z() - lifted};
     }
   }
   failure.rethrow();
+}
+
+template<class TakeBite>
+EdgeLoad MillingProcess::bear(const PerLayer& shift, PerLayer& force, TakeBite&& bite) {
+  const CutterPlace from = place(step_), to = place(step_ + 1);
+  sweep_edges(shift); // of all edges before any bites: rakes that have no place in the material end the step
+#pragma omp parallel for schedule(static) if (bite_.size() >= 256)
+  for (std::size_t k = 0; k < layer_.size(); ++k) {
+    const CutterPlace last{to.axis + shift[k], to.angle};
+    for (std::size_t i = k * edges_.teeth(), j = 0; j < edges_.teeth(); ++i, ++j) {
+      bite_[i] = bite(k, sweep_[i]);
+      if (flanks_) pressed_[i] = flanks_->pressed(i, edges_.arm(k, j, last), way_of(i));
+    }
+  }
   if (part_) part_->unload();
   EdgeLoad load;
   for (std::size_t k = 0, i = 0; k < layer_.size(); ++k) {
@@ -214,7 +242,15 @@ void MillingProcess::book(const EdgeLoad& load, const Eigen::MatrixXd& state, co
     ledger_.elastic += 0.5 * stiffness * state(0, column) * state(0, column);
     ledger_.kinetic += 0.5 * stiffness * state(1, column) * state(1, column);
   }
-  if (part_) ledger_.part += part_->work();
+  if (part_) {
+    const double damped = part_->energy().damping;
+    part_->take();
+    const EnergyLedger& energy = part_->energy();
+    ledger_.damping += energy.damping - damped;
+    ledger_.chips = energy.chips;
+    ledger_.kinetic += energy.kinetic;
+    ledger_.elastic += energy.elastic;
+  }
   ledger_.cutting += load.work;
   ledger_.ploughing += load.ploughed;
   ledger_.spindle += load.torque * (to.angle - from.angle);
@@ -224,6 +260,18 @@ void MillingProcess::book(const EdgeLoad& load, const Eigen::MatrixXd& state, co
 
 ProcessStep MillingProcess::advance() {
   begin_step();
+  const PerLayer force = force_; // questions of a step that is not made leave theirs
+  const Eigen::VectorXd load = part_ ? part_->load() : Eigen::VectorXd();
+  try {
+    return make_step();
+  } catch (...) {
+    force_ = force;
+    if (part_) part_->go_back(load);
+    throw;
+  }
+}
+
+ProcessStep MillingProcess::make_step() {
   take_shapes();
   PerLayer shift = shift_of(moved(force_));
   if (part_) part_->answer();
@@ -270,14 +318,9 @@ ProcessStep MillingProcess::advance() {
   step.angle = motion_.steady() ? settings_.spindle * step.time
                                 : place(step_).angle + 0.5 * full_turn / settings_.steps;
   Eigen::MatrixXd state = moved(force_);
+  const PerLayer seen = part_ ? relative(shift) : shift;
   book(step, state, shift);
   state_ = std::move(state);
-  PerLayer beside;
-  if (part_) {
-    beside = relative(shift);
-    part_->take();
-  }
-  const PerLayer& seen = part_ ? beside : shift;
   farthest_ = std::max(farthest_, largest(seen));
   for (const Vec3& s : seen)
     if (s.squaredNorm() > step.displacement.squaredNorm()) step.displacement = s;
@@ -288,6 +331,7 @@ ProcessStep MillingProcess::advance() {
 
 void MillingProcess::archive(Archive& archive) {
   archive.integer("milling/step", step_);
+  archive.integer("milling/passes_begun", passes_begun_);
   std::vector<double> modes(state_.data(), state_.data() + state_.size());
   archive.list("milling/modes", "m", modes);
   if (modes.size() != static_cast<std::size_t>(state_.size()))

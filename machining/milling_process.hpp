@@ -52,14 +52,17 @@ ToolMotion motion_of(const MillingCut& cut, const ProcessSettings& settings);
 
 class MillingProcess {
 public:
-  /// part: one that deforms where it is cut, in axes of the cut, for a cutter that goes straight along x at a
-  /// constant speed; none: it is rigid but for its modes.
+  /// part: one that deforms where it is cut, in axes of the cut; none: it is rigid but for its modes.
   MillingProcess(MillingCut cut, std::vector<Mode> modes, const ProcessSettings& settings,
                  std::unique_ptr<FlexiblePart> part = nullptr);
 
+  /// The same cutter, which does not vibrate, in what is left of the workpiece, from here on.
+  MillingProcess rigid() const;
+
   bool at_end() const;
   /// Makes a step: edges ask the dexels what they would remove until modes and forces agree, then they erase
-  /// what they sweep. Throws SolverError where they do not agree.
+  /// what they sweep. Throws DivergenceError where they do not agree, or the part folds, or a pass begins in
+  /// matter: everything is then as it was at the begin of the step.
   ProcessStep advance();
 
   /// What evolves.
@@ -69,10 +72,12 @@ public:
   double time() const { return motion_.time(step_); }
   const ToolMotion& motion() const { return motion_; }
   /// m, of the cutter's axis without vibration at the begin of the next step.
-  Vec2 axis() const { return axis_at(static_cast<double>(step_)); }
+  Vec2 axis() const { return way_at(static_cast<double>(step_)).at; }
   const FlexiblePart* part() const { return part_.get(); } ///< none: it is rigid but for its modes
   Workpiece workpiece() const { return workpiece_of(cut_, settings_); }
   const std::vector<DexelLayer>& layers() const { return layer_; }
+  /// A layer of the workpiece of passes before the first one.
+  DexelLayer stock(std::size_t layer) const;
   double height(std::size_t layer) const { return edges_.height(layer); } ///< m, middle of it over the tip
   double radius(std::size_t layer) const { return edges_.radius(layer); } ///< m, of the cutter
   double volume() const;                                                  ///< m³ of matter
@@ -85,20 +90,29 @@ public:
   /// m, matter that is left on the machined side beyond where the teeth pass, at a place along x; negative:
   /// too much was taken. None where no matter is left.
   std::optional<double> left_at(std::size_t layer, double x) const;
-  /// The same beside the last pass, at a way along it, m.
-  std::optional<double> left_beside(std::size_t layer, double way) const;
+  /// The same beside the last pass, at a way along it, m. stock: of this layer; none where nothing of it has
+  /// been taken there: that is no machined side.
+  std::optional<double> left_beside(std::size_t layer, double way, const DexelLayer& stock) const;
+  /// Unit vector from the axis to the machined side, of a way along another one.
+  Vec2 machined_side(const Vec2& along) const {
+    return cut_.engagement.side == Engagement::Side::up ? left_normal(along) : right_normal(along);
+  }
   /// m that the cutter goes on in a turn.
   double feed_of_turn() const { return feed_speed_ * full_turn / settings_.spindle; }
 
 private:
   using PerLayer = std::vector<Vec3>;
 
-  Vec2 axis_at(double at) const;              ///< m, at a time in steps within the pass of this step
+  /// At a time in steps within the pass of this step.
+  ToolPath::Place way_at(double at) const;
   CutterPlace place(std::int64_t step) const; ///< without vibration
   void take_blank();
+  Vec2 cells() const; ///< m, of dexels at most
   /// Takes the duration of this step; the cutter goes to the begin of a pass. Throws DivergenceError.
   void begin_step();
   void begin_pass(std::size_t pass);
+  /// What edges meet, answered by questions until shifts agree, and the step that erases it.
+  ProcessStep make_step();
   /// What teeth remove and bear whose cutter is shifted at the end of the step, m for each layer; forces on
   /// the tool for each, N, come into `force`. bite(layer, sweep): what is taken of a layer, or would be.
   template<class TakeBite> EdgeLoad bear(const PerLayer& shift, PerLayer& force, TakeBite&& bite);
@@ -110,6 +124,8 @@ private:
   FlankTraces::Way way_of(std::size_t edge) const {
     return {way_[edge].head<2>(), bite_[edge].begin, bite_[edge].end};
   }
+  /// Where edges go in this step, of a cutter whose shift at its end is this one: sweep_, way_, edge_.
+  void sweep_edges(const PerLayer& shift);
   /// Of the cutter relative to the part, m, at the machined side of each layer.
   PerLayer relative(const PerLayer& shift) const;
   /// m, where a mode would rest under forces.
@@ -132,10 +148,11 @@ private:
   std::vector<FreeMotion> free_;
   std::vector<Mat2> loss_; ///< of modes in a step, damping_loss()
   EdgeElements edges_;
-  std::int64_t step_ = 0;
+  std::int64_t step_ = 0, passes_begun_ = 0;
   std::vector<DexelLayer> layer_;
-  std::vector<Bite> bite_; ///< [layer × tooth] of the last question
-  std::vector<Vec3> way_;  ///< [layer × tooth] m, of the edge relative to the part
+  std::vector<Sweep> sweep_; ///< [layer × tooth] of the last question
+  std::vector<Bite> bite_;   ///< [layer × tooth] of the last question
+  std::vector<Vec3> way_;    ///< [layer × tooth] m, of the edge in space relative to the part
   std::optional<FlankTraces> flanks_;
   std::vector<double> pressed_; ///< [layer × tooth] m², under flanks at the end of the step
   Eigen::MatrixXd state_;       ///< [2 × modes] (q, v/ω)

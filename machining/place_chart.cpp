@@ -7,18 +7,13 @@
 
 namespace cnem::machining {
 
-std::vector<Mode> modes_at_place(std::span<const Mode> modes, double place) {
-  std::vector<Mode> there;
-  for (const Mode& mode : modes)
-    if (mode.moves_at(place)) there.push_back(mode.at(place));
-  return there;
-}
-
-PlaceChart place_chart(const MillingCut& cut, std::span<const Mode> modes, std::vector<double> places,
-                       double from, double to, int speeds, double deepest, int depths) {
-  PlaceChart chart{.place = std::move(places), .speed = {}, .limit = {}};
-  for (const double place : chart.place) {
-    const std::vector<Mode> there = modes_at_place(modes, place);
+PlaceChart place_chart(const MillingCut& cut, const std::vector<std::vector<Mode>>& modes,
+                       std::vector<double> places, double from, double to, int speeds, double deepest,
+                       int depths) {
+  assert(modes.size() == places.size());
+  PlaceChart chart{.place = std::move(places), .moves = {}, .speed = {}, .limit = {}};
+  for (const std::vector<Mode>& there : modes) {
+    chart.moves.push_back(!there.empty());
     if (there.empty()) { // nothing moves: no depth is too large
       chart.limit.resize(chart.limit.size() + static_cast<std::size_t>(speeds));
       continue;
@@ -30,16 +25,14 @@ PlaceChart place_chart(const MillingCut& cut, std::span<const Mode> modes, std::
   return chart;
 }
 
-std::size_t PlaceChart::weakest(double spindle, std::span<const Mode> modes) const {
+std::size_t PlaceChart::weakest(double spindle) const {
   const auto near = std::min_element(speed.begin(), speed.end(), [&](double a, double b) {
     return std::abs(a - spindle) < std::abs(b - spindle);
   });
   const auto column = static_cast<std::size_t>(near - speed.begin());
-  const auto moves = std::find_if(place.begin(), place.end(), [&](double x) {
-    return std::any_of(modes.begin(), modes.end(), [x](const Mode& mode) { return mode.moves_at(x); });
-  });
-  assert(moves != place.end());
-  auto weakest = static_cast<std::size_t>(moves - place.begin());
+  const auto first = std::find(moves.begin(), moves.end(), true);
+  assert(first != moves.end());
+  auto weakest = static_cast<std::size_t>(first - moves.begin());
   double least = infinite;
   for (std::size_t k = 0; k < place.size(); ++k)
     if (const auto& there = limit[k * speed.size() + column]; there && there->depth < least) {

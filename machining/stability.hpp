@@ -51,18 +51,20 @@ struct StabilityChart {
 StabilityChart stability_chart(const MillingCut& cut, std::span<const Mode> modes, double from, double to,
                                int speeds, double deepest, int depths);
 
-/// Limits over speed and place along the path of modes that change there.
+/// Limits over speed and place along a path.
 struct PlaceChart {
   std::vector<double> place;                    ///< m
+  std::vector<bool> moves;                      ///< whether anything vibrates at a place
   std::vector<double> speed;                    ///< rad/s
   std::vector<std::optional<DepthLimit>> limit; ///< [place × speeds + speed], the first within the depths
-  /// The place whose limit at the speed nearest to `spindle` is the least; the first one where none has any.
-  std::size_t weakest(double spindle, std::span<const Mode> modes) const;
+  /// The place whose limit at the speed nearest to `spindle` is the least; the first one that moves where
+  /// none has any. It has to move somewhere.
+  std::size_t weakest(double spindle) const;
 };
-PlaceChart place_chart(const MillingCut& cut, std::span<const Mode> modes, std::vector<double> places,
-                       double from, double to, int speeds, double deepest, int depths);
-/// Modes at a place, those that do not move there left out.
-std::vector<Mode> modes_at_place(std::span<const Mode> modes, double place);
+/// modes: [place] those that a cutter meets there, as they are there.
+PlaceChart place_chart(const MillingCut& cut, const std::vector<std::vector<Mode>>& modes,
+                       std::vector<double> places, double from, double to, int speeds, double deepest,
+                       int depths);
 
 /// The speed of the chart nearest to `spindle` whose limit is at least `depth`; none where there is none.
 std::optional<std::size_t> nearest_speed(const StabilityChart& chart, double spindle, double depth);

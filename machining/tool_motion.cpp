@@ -114,9 +114,9 @@ double ToolMotion::way(double at) const {
   return k + 1 < way_.size() ? way_[k] + (at - before) * (way_[k + 1] - way_[k]) : way_[k];
 }
 
-Vec2 ToolMotion::axis(std::size_t pass, double at) const {
-  if (path_.empty()) return {start_ + std::min(way(at), length_), 0.0};
-  return path_[pass].at(way(at) - way(static_cast<double>(passes_[pass].begin))).at;
+ToolPath::Place ToolMotion::place(std::size_t pass, double at) const {
+  if (path_.empty()) return {Vec2(start_ + std::min(way(at), length_), 0.0), Vec2::UnitX()};
+  return path_[pass].at(way(at) - way(static_cast<double>(passes_[pass].begin)));
 }
 
 } // namespace cnem::machining

@@ -53,8 +53,9 @@ public:
   };
   const std::vector<Pass>& passes() const { return passes_; }
   std::size_t pass_of(std::int64_t step) const;
-  /// m, of the axis at a time in steps, within a pass.
-  Vec2 axis(std::size_t pass, double at) const;
+  /// Of the axis at a time in steps, within a pass.
+  ToolPath::Place place(std::size_t pass, double at) const;
+  Vec2 axis(std::size_t pass, double at) const { return place(pass, at).at; } ///< m
 
   /// s, at the begin of a step.
   double time(std::int64_t step) const {

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <numeric>
 
 namespace cnem::app {
@@ -24,44 +25,56 @@ MachinedSurface::MachinedSurface(const MillingProcess& process, const input::Mac
   // Teeth have passed there: from where the first turns have been to where the last one is.
   const double from = start + std::max(2.0 * turn, outside || path ? 0.0 : 0.5 * (end - start)),
                to = end - turn;
+  std::vector<double> places;
+  for (double at = std::max(from, 0.0); at <= to; at += pitch) places.push_back(at);
+  std::vector<bool> found(places.size(), false);
   for (std::size_t k = 0; k < process.layers().size(); ++k)
-    if (process.cuts(k) && (!path || process.layers()[k].area() > 0.0))
-      layer_.push_back(k); // or over the stock
-  left_.resize(layer_.size());
-  std::vector<double> here(layer_.size());
-  for (double at = std::max(from, 0.0); at <= to; at += pitch) {
-    bool all = true;
-    for (std::size_t k = 0; k < layer_.size() && all; ++k) {
-      const std::optional<double> left = this->left(layer_[k], at);
-      all = left.has_value();
-      here[k] = left.value_or(0.0);
-    }
-    if (!all) continue;
-    place_.push_back(at);
-    for (std::size_t k = 0; k < layer_.size(); ++k) left_[k].push_back(here[k]);
+    if (process.cuts(k)) add_layer(k, places, found);
+  const auto keep_found = [&](std::vector<double>& values) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < found.size(); ++i)
+      if (found[i]) values[kept++] = values[i];
+    values.resize(kept);
+  };
+  for (std::vector<double>& left : left_) keep_found(left);
+  keep_found(places);
+  place_ = std::move(places);
+}
+
+void MachinedSurface::add_layer(std::size_t layer, const std::vector<double>& places,
+                                std::vector<bool>& found) {
+  std::optional<machining::DexelLayer> stock;
+  if (process_.motion().last_path()) stock = process_.stock(layer);
+  const auto left = [&](double way) -> std::optional<double> {
+    if (stock) return process_.left_beside(layer, way, *stock);
+    if (const auto of_straight = process_.left_at(layer, way)) return of_straight;
+    throw DivergenceError(
+        fmt::format("nothing is left of the workpiece at {} along the path and {} over the tip: the "
+                    "cutter has gone through it, expected vibrations that are small beside the cut",
+                    si_format(way, "m"), si_format(process_.height(layer), "m")),
+        -1, "displacement");
+  };
+  std::vector<double> here;
+  bool any = false;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const std::optional<double> at = left(places[i]);
+    here.push_back(at.value_or(std::numeric_limits<double>::quiet_NaN()));
+    if (at) any = found[i] = true;
   }
-}
-
-std::optional<double> MachinedSurface::left(std::size_t layer, double way) const {
-  if (process_.motion().last_path()) return process_.left_beside(layer, way);
-  if (const auto left = process_.left_at(layer, way)) return left;
-  throw DivergenceError(
-      fmt::format("nothing is left of the workpiece at {} along the path and {} over the tip: the "
-                  "cutter has gone through it, expected vibrations that are small beside the cut",
-                  si_format(way, "m"), si_format(process_.height(layer), "m")),
-      -1, "displacement");
-}
-
-MachinedSurface::Texture MachinedSurface::texture(std::size_t layer) const {
+  if (!any) return; // over the stock, or beside all of it
   // Tips of scallops lie between dexels.
   constexpr int finer = 16;
-  constexpr std::size_t lengths = 5;
   std::vector<double> height;
-  for (std::size_t i = 0; i + 1 < place_.size(); ++i)
+  for (std::size_t i = 0; i + 1 < places.size(); ++i)
     for (int part = 0; part < finer; ++part)
-      if (const auto left = this->left(layer, place_[i] + part * (place_[i + 1] - place_[i]) / finer))
-        height.push_back(*left);
-  if (height.empty()) return {};
+      if (const auto at = left(places[i] + part * (places[i + 1] - places[i]) / finer)) height.push_back(*at);
+  layer_.push_back(layer);
+  left_.push_back(std::move(here));
+  if (!height.empty()) texture_.push_back(texture_of(height));
+}
+
+MachinedSurface::Texture MachinedSurface::texture_of(const std::vector<double>& height) {
+  constexpr std::size_t lengths = 5;
   Texture texture;
   texture.location_error =
       std::accumulate(height.begin(), height.end(), 0.0) / static_cast<double>(height.size());
@@ -79,9 +92,8 @@ MachinedSurface::Texture MachinedSurface::texture(std::size_t layer) const {
 }
 
 std::string MachinedSurface::tell(results::RunStatus& status) const {
-  if (place_.size() < 2 || layer_.empty()) return "the path is too short for a surface";
-  std::vector<Texture> layers;
-  for (const std::size_t k : layer_) layers.push_back(texture(k));
+  if (place_.size() < 2 || texture_.empty()) return "the path is too short for a surface";
+  const std::vector<Texture>& layers = texture_;
   const auto zone = [&](const std::string& name, std::size_t from, std::size_t to) {
     Texture all;
     for (std::size_t k = from; k < to; ++k) {
@@ -131,7 +143,8 @@ std::string MachinedSurface::vtk() const {
       const machining::ToolPath::Place at =
           path ? path->at(place_[i]) : machining::ToolPath::Place{Vec2(place_[i], 0.0), Vec2::UnitX()};
       const Vec2 side = up_ ? left_normal(at.along) : right_normal(at.along);
-      const Vec2 x = at.at + (process_.radius(layer_[k]) - left_[k][i]) * side;
+      const double left = std::isfinite(left_[k][i]) ? left_[k][i] : 0.0; // a grid has all of its points
+      const Vec2 x = at.at + (process_.radius(layer_[k]) - left) * side;
       text += fmt::format("{:.9g} {:.9g} {:.9g}\n", x.x(), x.y(), process_.height(layer_[k]));
     }
   text += fmt::format("POINT_DATA {}\nSCALARS left_m double 1\nLOOKUP_TABLE default\n",

@@ -5,6 +5,7 @@
 #include "report/surface_map.hpp"
 #include "results/status.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,8 @@ public:
   /// Metrics of the surface, and of thirds of the height: means of Ra and Rz (ISO 4287), the largest of the
   /// others. Returns a sentence.
   std::string tell(results::RunStatus& status) const;
-  /// A row a place along the path, a column a layer.
+  /// A row a place along the path where any layer has a machined side, a column a layer; nan where it has
+  /// none.
   std::string csv() const;
   /// The same as a grid in space, where the surface is, for VTK.
   std::string vtk() const;
@@ -30,15 +32,17 @@ private:
   struct Texture {
     double Ra = 0.0, Rz = 0.0, peak_to_valley = 0.0, location_error = 0.0;
   };
-  Texture texture(std::size_t layer) const;
-  /// m; none where there is no matter beside a pass.
-  std::optional<double> left(std::size_t layer, double way) const;
+  /// Looks at the places along the path, m, and marks those where the layer has a machined side.
+  void add_layer(std::size_t layer, const std::vector<double>& places, std::vector<bool>& found);
+  /// height: m, evenly along the path.
+  static Texture texture_of(const std::vector<double>& height);
 
   const machining::MillingProcess& process_;
   bool up_;
   std::vector<double> place_;             ///< m along the path: x of a straight cut, way along the last pass
-  std::vector<std::size_t> layer_;        ///< those that the cutter reaches
-  std::vector<std::vector<double>> left_; ///< [layer that is cut][place] m
+  std::vector<std::size_t> layer_;        ///< those that have a machined side
+  std::vector<std::vector<double>> left_; ///< [layer_][place] m; no number where it has no machined side
+  std::vector<Texture> texture_;          ///< of layers
 };
 
 } // namespace cnem::app

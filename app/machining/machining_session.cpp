@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 #include <omp.h>
 
 namespace cnem::app {
@@ -99,9 +100,20 @@ std::vector<input::NamedMode> modes_of(const input::Case& input) {
   std::vector<input::NamedMode> modes = input.machining->modes;
   if (input.structure->part) {
     int number = 0;
-    for (const machining::Mode& mode : modes_at_cutter(input, SolvedPart(input)))
+    const SolvedPart solved(input);
+    if (input.structure->part->mapped) { // all of them deform it; what they do at one place is not asked
+      for (const double omega : solved.modes.omega)
+        modes.push_back({machining::Mode{.of = machining::Mode::Of::part,
+                                         .frequency = omega / machining::full_turn,
+                                         .damping = input.structure->part->damping_of(omega),
+                                         .stiffness = omega * omega},
+                         fmt::format("{}", ++number)});
+      return modes;
+    }
+    for (const machining::Mode& mode : modes_at_cutter(input, solved))
       modes.push_back({mode, fmt::format("{}", ++number)});
-    if (std::all_of(modes.begin(), modes.end(),
+    if (input.machining->stability.places.empty() && // else it is asked for at each of them
+        std::all_of(modes.begin(), modes.end(),
                     [](const machining::Mode& mode) { return mode.direction.head<2>().norm() < 1e-9; }))
       throw input.error("part.cutter",
                         "found a place where no mode of the part moves across the axis of the cutter, "
@@ -122,6 +134,18 @@ double deepest(const input::Case& input, const std::vector<machining::Mode>& mod
 
 namespace {
 
+/// rad/s, of modes where they are the fastest along the path, by name.
+std::map<std::string, double> fastest(const input::Case& input, const std::vector<input::NamedMode>& modes) {
+  std::map<std::string, double> most;
+  const auto add = [&](const std::vector<input::NamedMode>& there) {
+    for (const input::NamedMode& mode : there) most[mode.name] = std::max(most[mode.name], mode.omega());
+  };
+  const std::vector<double>& places = input.machining->stability.places;
+  if (places.empty()) add(modes);
+  for (const double place : places) add(modes_met(input, place));
+  return most;
+}
+
 /// Flanks that touch nothing, or as deep as chips; lobes take what they do for a damping, which waves have to
 /// be long for.
 std::vector<std::string> flank_doubts(const input::Case& input, const std::vector<input::NamedMode>& modes) {
@@ -140,14 +164,14 @@ std::vector<std::string> flank_doubts(const input::Case& input, const std::vecto
     doubt("cutting.flank.recovery",
           fmt::format("the surface springs back by {}, expected less than the thickest chip, {}",
                       si_format(milling.cut.flank.recovery, "m"), si_format(thickest, "m")));
-  const double slowest =
-      input.analysis.type == input::Analysis::Type::stability ? milling.stability.speed_from : infinite;
-  for (const input::NamedMode& mode : modes)
-    if (const double wave = slowest * milling.cut.cutter.radius() / mode.omega(); contact > wave)
+  if (input.analysis.type != input::Analysis::Type::stability) return doubts;
+  const double slowest = milling.stability.speed_from;
+  for (const auto& [name, omega] : fastest(input, modes))
+    if (const double wave = slowest * milling.cut.cutter.radius() / omega; contact > wave)
       doubt("cutting.flank.land",
             fmt::format("at {} mode {} leaves waves of {} a radian, expected longer ones than the contact of "
                         "the land, {}: its damping is taken for that of long waves",
-                        speed_text(slowest), mode.name, si_format(wave, "m"), si_format(contact, "m")));
+                        speed_text(slowest), name, si_format(wave, "m"), si_format(contact, "m")));
   return doubts;
 }
 
@@ -229,7 +253,13 @@ void describe(const input::Case& input, Checked& checked) {
   if (const auto& read = structure.part) {
     const machining::Part part = part_of(input);
     for (const input::PartPlace& place : read->places) displacement_at(input, part, place);
-    if (read->cutter) displacement_at_cutter(input, part);
+    if (read->mapped && input.machining->blank)
+      check_mapped_workpiece(input);
+    else if (read->cutter)
+      displacement_at_cutter(input, part);
+    if (input.machining)
+      for (const double place : input.machining->stability.places)
+        displacement_on_the_way(input, part, place);
     const Vec3& size = read->shape.size;
     checked.facts.emplace_back("part", fmt::format("{} × {} × {}, {} cells, {} unknowns",
                                                    si_format(size.x(), "m"), si_format(size.y(), "m"),

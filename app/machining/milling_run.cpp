@@ -39,7 +39,7 @@ const std::vector<std::string> history_columns{"time[s]",
                                                "energy.cutting[J]",
                                                "energy.ploughing[J]",
                                                "energy.damping[J]",
-                                               "energy.part[J]",
+                                               "energy.chips[J]",
                                                "energy.kinetic[J]",
                                                "energy.elastic[J]",
                                                "energy.residual[J]"};
@@ -60,10 +60,6 @@ machining::ProcessSettings settings_of(const input::MachiningCase& milling) {
 
 /// Of the turns of a run those that count, for forces and for vibration, and how many at most.
 constexpr double share_of_forces = 0.25, share_of_vibration = 0.5, most_turns = 128.0;
-
-double step_of(const input::MachiningCase& milling) { // s
-  return machining::full_turn / milling.speed / milling.dexels.steps;
-}
 
 /// A row a frequency, up to some harmonics of the teeth and beyond all modes; empty for too short a run.
 std::string spectra_file(const machining::CutVibration& vibration, const input::Case& input,
@@ -131,7 +127,7 @@ MillingRun::MillingRun(const input::Case& input, const RunOptions& options, RunO
                        bool goes_on)
     : SteppedRun(input, options, observer, goes_on, history_columns),
       process_(input.machining->cut, modes_of_process(), settings_of(*input.machining),
-               flexible_part(input, settings_of(*input.machining), step_of(*input.machining))),
+               flexible_part(input, settings_of(*input.machining))),
       counts_(steady_turns(share_of_forces, infinite)), heard_(steady_turns(share_of_vibration, most_turns)),
       vibration_(input.machining->cut.cutter, input.machining->dexels.steps) {
   if (process_.part()) first_frequency_ = process_.part()->frequency();
@@ -141,6 +137,7 @@ MillingRun::MillingRun(const input::Case& input, const RunOptions& options, RunO
 void MillingRun::archive(Archive& archive) {
   process_.archive(archive);
   steady_.archive(archive);
+  archive.number("run/still", "m", still_);
   vibration_.archive(archive);
   archive.integer("run/unsettled_steps", unsettled_steps_);
   archive.number("run/unsettled", "m", unsettled_);
@@ -150,6 +147,7 @@ void MillingRun::advance() {
   const double step_dt = dt(), at = static_cast<double>(steps()) + 0.5;
   const Vec2 axis = process_.axis();
   const machining::ProcessStep step = made_step();
+  if (steps() == process_.motion().passes().back().begin + 1) still_ = still_chips();
   if (counts_.holds(at)) steady_.add(step, step_dt);
   if (heard_.holds(at)) vibration_.add(step.force, step.displacement);
   if (step.unsettled > 0.0) {
@@ -176,7 +174,7 @@ void MillingRun::advance() {
                        ledger.cutting,
                        ledger.ploughing,
                        ledger.damping,
-                       ledger.part,
+                       ledger.chips,
                        ledger.kinetic,
                        ledger.elastic,
                        ledger.residual()};
@@ -208,6 +206,22 @@ MillingRun::Window MillingRun::steady_turns(double share, double most) const {
   return {from, from + length};
 }
 
+double MillingRun::still_chips() const {
+  const input::MachiningCase& milling = *input_.machining;
+  if (milling.passes.empty() && process_.motion().steady()) // across the profile, where it is the steepest
+    return std::sin(milling.cut.cutter.lead(milling.axial_depth, milling.axial_depth)) *
+           machining::steady_chips(milling.cut).thickest;
+  if (modes_.empty()) return 0.0; // it is that run itself
+  machining::MillingProcess rigid = process_.rigid();
+  double thickest = 0.0;
+  while (!rigid.at_end() && static_cast<double>(rigid.steps()) < counts_.to) {
+    const double at = static_cast<double>(rigid.steps()) + 0.5;
+    const double chip = rigid.advance().thickest;
+    if (counts_.holds(at)) thickest = std::max(thickest, chip);
+  }
+  return thickest;
+}
+
 bool MillingRun::judge_vibration() {
   const input::MachiningCase& milling = *input_.machining;
   const double spindle = milling.speed, teeth = static_cast<double>(milling.cut.cutter.teeth());
@@ -234,13 +248,8 @@ void MillingRun::judge() {
   status_.add_metric("milling.thickest[m]", steady.thickest);
   // Campomanes and Altintas (2003): chips a quarter thicker than without vibration are chatter.
   constexpr double chatter = 1.25;
-  // Across the profile, where it is the steepest.
-  const double still = std::sin(milling.cut.cutter.lead(milling.axial_depth, milling.axial_depth)) *
-                       machining::steady_chips(milling.cut).thickest;
   const bool swings = judge_vibration();
-  // The engagement of passes is that of their workpiece, not milling.radial_depth.
-  const bool comparable = milling.passes.empty();
-  const bool thick = comparable && steady.thickest > chatter * still;
+  const bool thick = still_ > 0.0 && steady.thickest > chatter * still_;
   const bool chatters = !modes_.empty() && (thick || swings);
   std::string tone;
   if (chatters && process_.motion().steady())
@@ -248,7 +257,7 @@ void MillingRun::judge() {
       status_.add_metric("milling.chatter_frequency[Hz]", peak->frequency);
       tone = fmt::format(" at {}", si_format(peak->frequency, "Hz"));
     }
-  if (comparable) status_.add_metric("milling.chip_growth", steady.thickest / still);
+  if (still_ > 0.0) status_.add_metric("milling.chip_growth", steady.thickest / still_);
   status_.add_metric("milling.chatter", chatters ? 1.0 : 0.0);
   status_.flags.emplace_back("milling.chatter");
   if (!modes_.empty()) status_.add_metric("milling.displacement[m]", steady.displacement);
@@ -258,7 +267,7 @@ void MillingRun::judge() {
   }
   // Chips change by more than a small part of themselves: lobes, which are of small vibrations, say no more.
   if (constexpr double small = 0.5;
-      comparable && steady.displacement > small * milling.cut.engagement.radial_depth)
+      milling.passes.empty() && steady.displacement > small * milling.cut.engagement.radial_depth)
     warn(input_
              .error("milling.radial_depth",
                     fmt::format("the cutter moves by {} relative to the part, expected less than half of the "
@@ -283,7 +292,7 @@ void MillingRun::judge() {
                                     {"cutting", ledger.cutting},
                                     {"ploughing", ledger.ploughing},
                                     {"damping", ledger.damping},
-                                    {"part", ledger.part},
+                                    {"chips", ledger.chips},
                                     {"kinetic", ledger.kinetic},
                                     {"elastic", ledger.elastic}})
     status_.add_metric(fmt::format("milling.energy.{}[J]", name), value);
@@ -291,7 +300,7 @@ void MillingRun::judge() {
       fmt::format("{}; at most {} along x, {} along y; {}",
                   modes_.empty() ? "a rigid cut"
                   : thick    ? fmt::format("chatter{}: chips {} times as thick as without vibration", tone,
-                                           results::number_format(steady.thickest / still, 3))
+                                           results::number_format(steady.thickest / still_, 3))
                   : chatters ? fmt::format("chatter{}: disturbances grow", tone)
                              : "no chatter",
                   si_format(steady.force.x(), "N"), si_format(steady.force.y(), "N"), surface);

@@ -48,10 +48,15 @@ private:
   /// Whole turns that stand for the cut: the last ones, a share of all, up to where the feed ends; of passes,
   /// which enter and leave, those in the middle half of the last one. most: turns.
   Window steady_turns(double share, double most) const;
+  /// m, the thickest chip of a cut without vibration in the turns that stand for forces; of passes, whose
+  /// engagement is that of what those before have left, and where the drive changes, by a rigid run of the
+  /// last one from its first step on. 0: nothing vibrates there.
+  double still_chips() const;
 
   machining::MillingProcess process_;
   Window counts_, heard_;        ///< turns that stand for forces, and for vibration
   Course steady_;                ///< of the last turns
+  double still_ = 0.0;           ///< m, still_chips(); 0 before they are known
   double first_frequency_ = 0.0; ///< Hz, of a part that deforms, at first
 
   machining::CutVibration vibration_; ///< of the turns that stand for the cut

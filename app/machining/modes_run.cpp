@@ -13,9 +13,6 @@ namespace {
 
 using results::si_format;
 
-constexpr const char* head =
-    "of,mode,frequency[Hz],damping,place,stiffness[N/m],mass[kg],direction_x,direction_y,direction_z\n";
-
 /// Legacy VTK, which ParaView reads: the cells of a part with the shapes of its modes at the nodes, the
 /// largest displacement of each 1.
 std::string vtk_file(const SolvedPart& solved) {
@@ -50,9 +47,7 @@ std::string vtk_file(const SolvedPart& solved) {
 
 void ModesRun::add_mode(const char* of, std::size_t number, const machining::Mode& mode,
                         const std::string& place) {
-  table_ +=
-      fmt::format("{},{},{},{},{},{},{},{},{},{}\n", of, number, mode.frequency, mode.damping, place,
-                  mode.stiffness, mode.mass(), mode.direction.x(), mode.direction.y(), mode.direction.z());
+  table_ += mode_row(of, fmt::format("{}", number), mode, place);
   status_.add_metric(fmt::format("modes.{}.{}.k{}[N/m]", of, place, number), mode.stiffness);
   status_.add_metric(fmt::format("modes.{}.{}.m{}[kg]", of, place, number), mode.mass());
 }
@@ -131,7 +126,7 @@ bool ModesRun::solve() {
 }
 
 void ModesRun::write_files() {
-  results::write_atomically(options_.output / results::files::modes, head + table_);
+  results::write_atomically(options_.output / results::files::modes, mode_table_head + table_);
   if (part_) results::write_atomically(options_.output / results::files::mode_shapes, vtk_file(*part_));
 }
 

@@ -1,5 +1,6 @@
 #include "app/machining/stability_run.hpp"
 
+#include "app/machining/structure_modes.hpp"
 #include "input/case_machining.hpp"
 #include "machining/zero_order.hpp"
 #include "report/stability_page.hpp"
@@ -128,6 +129,12 @@ void StabilityRun::write_files() {
       along += '\n';
     }
     results::write_atomically(options_.output / results::files::stability_places, along);
+    std::string modes = mode_table_head;
+    for (std::size_t k = 0; k < met_.size(); ++k)
+      for (const input::NamedMode& mode : met_[k])
+        modes += mode_row(mode.of == machining::Mode::Of::tool ? "tool" : "part", mode.name, mode,
+                          fmt::format("{}", places_->place[k]));
+    results::write_atomically(options_.output / results::files::modes, modes);
   }
   results::write_atomically(options_.output / results::files::stability_chart, radii);
   if (const auto lobes = report::stability_lobes(options_.output, status_))
@@ -139,16 +146,28 @@ bool StabilityRun::solve() {
   const input::MachiningCase& milling = *input_.machining;
   const input::StabilityRange& range = milling.stability;
   std::vector<machining::Mode> modes = plain_modes();
-  const double most = deepest(input_, modes);
-  double weakest = 0.0; // m, place along the path
-  if (!range.places.empty()) {
+  double most = 0.0, weakest = 0.0; // m, depth, place along the path
+  if (range.places.empty())
+    most = deepest(input_, modes);
+  else {
+    std::vector<std::vector<machining::Mode>> there;
+    most = infinite;
+    for (const double place : range.places) {
+      met_.push_back(modes_met(input_, place));
+      there.emplace_back(met_.back().begin(), met_.back().end());
+      if (!there.back().empty()) most = std::min(most, deepest(input_, there.back()));
+    }
+    if (!(most < infinite))
+      throw input_.error("stability.places",
+                         "found places at none of which a mode moves, expected others: nothing can chatter "
+                         "there");
     constexpr int fine = 25;
-    places_ = machining::place_chart(milling.cut, modes, range.places, range.speed_from, range.speed_to,
+    places_ = machining::place_chart(milling.cut, there, range.places, range.speed_from, range.speed_to,
                                      range.speeds, most, std::min(range.depths, fine));
-    weakest = places_->place[places_->weakest(milling.speed, modes)];
+    const std::size_t k = places_->weakest(milling.speed);
+    weakest = places_->place[k];
     status_.add_metric("stability.weakest_place[m]", weakest);
-    std::erase_if(modes_, [&](const machining::Mode& mode) { return !mode.moves_at(weakest); });
-    for (machining::Mode& mode : modes_) mode = mode.at(weakest);
+    modes_ = met_[k];
     modes = plain_modes();
   }
   chart_ = machining::stability_chart(milling.cut, modes, range.speed_from, range.speed_to, range.speeds,

@@ -6,7 +6,8 @@
 namespace cnem::app {
 
 /// Writes stability.csv (limits over speeds), stability_chart.csv (spectral radii), stability.svg,
-/// stability_places.csv (limits along the path) where places are asked for, status.json and the report.
+/// stability_places.csv (limits along the path) and modes.csv (those met there) where places are asked for,
+/// status.json and the report.
 class StabilityRun final : public MachiningSession {
 public:
   using MachiningSession::MachiningSession;
@@ -18,6 +19,7 @@ private:
 
   machining::StabilityChart chart_;
   std::optional<machining::PlaceChart> places_;
+  std::vector<std::vector<input::NamedMode>> met_; ///< [place]
 };
 
 } // namespace cnem::app

@@ -2,11 +2,11 @@
 
 #include "core/error.hpp"
 #include "core/index.hpp"
-#include "input/case_machining.hpp"
 #include "machining/structure/newmark_motion.hpp"
 #include "machining/structure/theoretical_tool.hpp"
 
 #include <array>
+#include <fmt/format.h>
 
 namespace cnem::app {
 
@@ -45,19 +45,49 @@ SparseMatrix displacement_at_cutter(const input::Case& input, const machining::P
                [&] { return part.displacement_at(std::array{*input.structure->part->cutter}); });
 }
 
+namespace {
+
+machining::Eigenmodes modes_of_part(const input::Case& input, const SparseMatrix& stiffness,
+                                    const SparseMatrix& mass) {
+  return about(input, "part",
+               [&] { return machining::lowest_modes(stiffness, mass, input.structure->part->count); });
+}
+
+} // namespace
+
 SolvedPart::SolvedPart(const input::Case& input)
     : part(part_of(input)), stiffness(part.stiffness(part.presence())), mass(part.mass(part.presence())),
-      modes(about(input, "part",
-                  [&] { return machining::lowest_modes(stiffness, mass, input.structure->part->count); })) {}
+      modes(modes_of_part(input, stiffness, mass)) {}
+
+SolvedPart::SolvedPart(const input::Case& input, machining::Part of, const std::vector<double>& presence)
+    : part(std::move(of)), stiffness(part.stiffness(presence)), mass(part.mass(presence)),
+      modes(modes_of_part(input, stiffness, mass)) {}
+
+namespace {
+
+Vec3 cutter_on_the_way(const input::PartCase& part, double place) {
+  return *part.cutter + place * part.to_cutter.row(0).transpose();
+}
+
+} // namespace
+
+SparseMatrix displacement_on_the_way(const input::Case& input, const machining::Part& part, double place) {
+  return about(input, "stability.places", [&] {
+    return part.displacement_at(std::array{cutter_on_the_way(*input.structure->part, place)});
+  });
+}
 
 bool is_felt(const machining::Eigenmodes& modes, Eigen::Index mode, const Vec3& motion) {
   constexpr double still = 1e-9;
   return motion.norm() > still * modes.shape.col(mode).cwiseAbs().maxCoeff();
 }
 
-std::vector<machining::Mode> modes_at_cutter(const input::Case& input, const SolvedPart& solved) {
-  const input::PartCase& part = *input.structure->part;
-  const Eigen::MatrixXd motion = displacement_at_cutter(input, solved.part) * solved.modes.shape;
+namespace {
+
+/// Modes of a part where some place moves as `rows` say, along axes of the cut.
+std::vector<machining::Mode> modes_along(const input::PartCase& part, const SolvedPart& solved,
+                                         const SparseMatrix& rows) {
+  const Eigen::MatrixXd motion = rows * solved.modes.shape;
   std::vector<machining::Mode> modes;
   for (Eigen::Index i = 0; i < solved.modes.count(); ++i) {
     const Vec3 shape = part.to_cutter * motion.col(i);
@@ -68,15 +98,56 @@ std::vector<machining::Mode> modes_at_cutter(const input::Case& input, const Sol
   return modes;
 }
 
+} // namespace
+
+std::vector<machining::Mode> modes_at_cutter(const input::Case& input, const SolvedPart& solved) {
+  return modes_along(*input.structure->part, solved, displacement_at_cutter(input, solved.part));
+}
+
+std::vector<input::NamedMode> modes_met(const input::Case& input, double place) {
+  std::vector<input::NamedMode> there;
+  for (const input::NamedMode& mode : input.machining->modes)
+    if (mode.moves_at(place)) there.push_back({mode.at(place), mode.name});
+  if (!input.structure->part) return there;
+  const input::PartCase& read = *input.structure->part;
+  const Vec3 feed = read.to_cutter.row(0).transpose(), cutter = cutter_on_the_way(read, place);
+  machining::Part part = part_of(input);
+  std::vector<double> presence = part.presence();
+  if (auto box = input.machining->stability.takes) {
+    Eigen::Index axis = 0;
+    feed.cwiseAbs().maxCoeff(&axis);
+    double& end = (feed[axis] > 0.0 ? box->high : box->low)[axis];
+    end = feed[axis] > 0.0 ? std::min(end, cutter[axis]) : std::max(end, cutter[axis]);
+    constexpr double most = 0.999; // as what tools take in time
+    if (box->low[axis] < box->high[axis])
+      presence = machining::presence_without(part, box->low, box->high, most);
+  }
+  const SolvedPart solved(input, std::move(part), presence);
+  const SparseMatrix rows = displacement_on_the_way(input, solved.part, place);
+  int number = 0;
+  for (const machining::Mode& mode : modes_along(read, solved, rows))
+    there.push_back({mode, fmt::format("{}", ++number)});
+  return there;
+}
+
+std::string mode_row(const std::string& of, const std::string& name, const machining::Mode& mode,
+                     const std::string& place) {
+  return fmt::format("{},{},{},{},{},{},{},{},{},{}\n", of, name, mode.frequency, mode.damping, place,
+                     mode.stiffness, mode.mass(), mode.direction.x(), mode.direction.y(), mode.direction.z());
+}
+
 namespace {
 
-/// Axes of the cut in the part: where the cutter is at first lies on the machined side, at the tip.
+/// Axes of the cut in the part: at the height of the tip lies where the cutter is at first, on the machined
+/// side of a straight way, or the origin of the axes in which passes are given.
 struct CutAxes {
-  explicit CutAxes(const input::Case& input) : turn(input.structure->part->to_cutter) {
+  explicit CutAxes(const input::Case& input)
+      : turn(input.structure->part->to_cutter), origin(*input.structure->part->cutter) {
+    if (!input.machining->passes.empty()) return;
     const machining::MillingCut& cut = input.machining->cut;
     const double r = cut.cutter.radius();
-    const Vec3 machined(0.0, cut.engagement.side == machining::Engagement::Side::up ? r : -r, 0.0);
-    origin = *input.structure->part->cutter - turn.transpose() * machined;
+    origin.noalias() -=
+        turn.transpose() * Vec3(0.0, cut.engagement.side == machining::Engagement::Side::up ? r : -r, 0.0);
   }
   Vec3 in_part(const Vec3& x) const { return origin + turn.transpose() * x; }
   Vec3 in_cut(const Vec3& x) const { return turn * (x - origin); }
@@ -98,10 +169,30 @@ struct CutAxes {
 
 } // namespace
 
-std::unique_ptr<machining::FlexiblePart>
-flexible_part(const input::Case& input, const machining::ProcessSettings& settings, double dt) {
+void check_mapped_workpiece(const input::Case& input) {
+  const input::MachiningCase& milling = *input.machining;
+  if (!milling.blank) return; // the cutter lies in the part
+  const CutAxes axes(input);
+  const Vec2 &low = milling.blank->low, &high = milling.blank->high;
+  const Vec3 one = axes.in_part(Vec3(low.x(), low.y(), 0.0)),
+             other = axes.in_part(Vec3(high.x(), high.y(), milling.axial_depth));
+  // Feed and axis may be oblique in the part: a box around what they span is enough to tell a slip.
+  const Vec3& size = input.structure->part->shape.size;
+  const Vec3 from = one.cwiseMin(other), to = one.cwiseMax(other);
+  if ((from.array() < size.array()).all() && (to.array() > 0.0).all()) return;
+  throw input.error(
+      "part.cutter",
+      fmt::format("puts the workpiece of the passes from ({:g}, {:g}, {:g}) to ({:g}, {:g}, {:g}) mm in the "
+                  "part, beside it, expected some of it within: with milling.passes part.cutter is where "
+                  "their point (0, 0) lies, at the height of the tip",
+                  1e3 * from.x(), 1e3 * from.y(), 1e3 * from.z(), 1e3 * to.x(), 1e3 * to.y(), 1e3 * to.z()));
+}
+
+std::unique_ptr<machining::FlexiblePart> flexible_part(const input::Case& input,
+                                                       const machining::ProcessSettings& settings) {
   const auto& read = input.structure->part;
   if (!read || !read->mapped) return nullptr;
+  check_mapped_workpiece(input);
   const CutAxes axes(input);
   const machining::MillingCut& cut = input.machining->cut;
   const machining::Workpiece block = machining::workpiece_of(cut, settings);
@@ -115,18 +206,18 @@ flexible_part(const input::Case& input, const machining::ProcessSettings& settin
   if (read->newmark) {
     machining::Part part = part_of(input);
     SparseMatrix follow = moved_by(part);
-    machining::PresenceAt presence = [whole = part.presence()](double) { return whole; };
+    machining::PresenceAtStep presence = [whole = part.presence()](std::int64_t) { return whole; };
     if (read->taking) {
       const auto tool = std::make_shared<const machining::TheoreticalTool>(
           part, machining::MillingProcess(cut, {}, settings), [&](const Vec3& x) { return axes.in_cut(x); },
-          machining::TheoreticalTool::Intervals{dt, read->taking->interval, read->taking->most});
-      presence = [tool](double time) { return tool->presence(time); };
+          machining::TheoreticalTool::Intervals{read->taking->interval, read->taking->most});
+      presence = [tool](std::int64_t step) { return tool->presence(step); };
     }
     return std::make_unique<machining::FlexiblePart>(
         std::move(map),
         std::make_unique<machining::NewmarkMotion>(
             std::move(part), std::move(follow),
-            machining::NewmarkMotion::Settings{dt, read->taking ? read->taking->interval : 0,
+            machining::NewmarkMotion::Settings{read->taking ? read->taking->interval : 0,
                                                read->rayleigh.value_or(machining::Rayleigh{})},
             std::move(presence)));
   }
@@ -136,7 +227,7 @@ flexible_part(const input::Case& input, const machining::ProcessSettings& settin
     coordinates.push_back({solved.modes.omega[i], read->damping_of(solved.modes.omega[i])});
   return std::make_unique<machining::FlexiblePart>(
       std::move(map),
-      std::make_unique<machining::ModalMotion>(moved_by(solved.part) * solved.modes.shape, coordinates, dt));
+      std::make_unique<machining::ModalMotion>(moved_by(solved.part) * solved.modes.shape, coordinates));
 }
 
 } // namespace cnem::app

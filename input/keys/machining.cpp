@@ -286,11 +286,16 @@ void add_stability(Keys& k) {
   k.add("stability.places", quantities,
         "Places of the cutter's axis along x, increasing, at which limits over the speed are charted, of "
         "modes that change "
-        "along the path (`along`, `shape_along`, `frequency_along`), at up to 25 depths. The lobes are those "
+        "along the path (`along`, `shape_along`, `frequency_along`), and of `part` where the cutter is that "
+        "has gone on so far along `part.feed` from `part.cutter`, at up to 25 depths. The lobes are those "
         "of the "
         "weakest place at `milling.speed` then.")
       .unit(d::length)
       .example("\"0 25 50 75 100 mm\"");
+  k.add("stability.takes", text,
+        "A zone of `part.zones` that the cutter takes on its way: at each of `places` what lies behind the "
+        "cutter is gone (D 0.999).")
+      .example("\"stock\"");
   k.add("stability.depths", integer, "").in({.low = 2, .high = 2000}).fallback("100");
 }
 

@@ -91,7 +91,8 @@ void add_part(Keys& k) {
        "In the time domain: `point`: the part moves as a whole, as its modes do at `cutter`; `hexahedra`: it "
        "deforms, and the dexels lie in its undeformed state. `cutter` is then where the cutter is at first, "
        "on "
-       "the machined side at the height of its tip ([more](structures.md#in-the-time-domain)).")
+       "the machined side at the height of its tip, or of `milling.passes` their point (0, 0) "
+       "([more](structures.md#in-the-time-domain)).")
       .one_of({"point", "hexahedra"})
       .fallback("\"point\"");
   k.add("part.hexahedra", vector, "How many there are over the workpiece along x, y and z of the cut.")

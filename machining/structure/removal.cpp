@@ -115,12 +115,7 @@ void RemovalState::archive(Archive& archive, const std::string& path) {
       throw IoError(fmt::format("{}{} is not of this case's part", path, name));
     *vector = Eigen::Map<const Eigen::VectorXd>(numbers.data(), as<Eigen::Index>(numbers.size()));
   }
-  for (const auto& [name, number] : {std::pair{"kinetic", &energy.kinetic},
-                                     {"elastic", &energy.elastic},
-                                     {"work", &energy.work},
-                                     {"damping", &energy.damping},
-                                     {"chips", &energy.chips}})
-    archive.number(path + name, "J", *number);
+  energy.archive(archive, path);
 }
 
 void machine(const Part& part, const RemovalSettings& settings, RemovalState& state,

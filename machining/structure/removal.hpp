@@ -2,6 +2,7 @@
 // The motion of a part from which a tool takes matter: paper 004, section 3.3 and Box 1.
 #include "core/fields/archive.hpp"
 #include "machining/structure/eigenmodes.hpp"
+#include "machining/structure/energy_ledger.hpp"
 #include "machining/structure/newmark.hpp"
 #include "machining/structure/part.hpp"
 
@@ -31,17 +32,6 @@ struct RemovalSettings {
 using PresenceAt = std::function<std::vector<double>(double time)>;
 /// Forces on the unknowns, N, at a time and a trial of q there.
 using LoadAt = std::function<Eigen::VectorXd(double time, const Eigen::VectorXd& trial)>;
-
-/// J since the begin.
-struct EnergyLedger {
-  double kinetic = 0.0, elastic = 0.0; ///< of what is there
-  double work = 0.0;                   ///< of the forces
-  double damping = 0.0;                ///< lost
-  double chips = 0.0;                  ///< left with what was taken
-
-  /// What does not add up: 0 but for what an inverse is not exact by, and for matter that goes within a step.
-  double imbalance() const { return kinetic + elastic + damping + chips - work; }
-};
 
 /// Where a part is at the begin of an interval: all that the intervals from there on depend on.
 struct RemovalState {

@@ -71,9 +71,8 @@ TheoreticalTool::TheoreticalTool(const Part& part, MillingProcess rigid,
   }
 }
 
-const std::vector<double>& TheoreticalTool::presence(double time) const {
-  const auto interval = std::llround(time / intervals_.dt) / intervals_.interval;
-  return presence_[std::min(index_of(interval), presence_.size() - 1)];
+const std::vector<double>& TheoreticalTool::presence(std::int64_t step) const {
+  return presence_[std::min(index_of(step / intervals_.interval), presence_.size() - 1)];
 }
 
 } // namespace cnem::machining

@@ -14,7 +14,6 @@ namespace cnem::machining {
 class TheoreticalTool {
 public:
   struct Intervals {
-    double dt = 0.0;           ///< s, of a step
     std::int64_t interval = 1; ///< steps
     double most = 0.0;         ///< –
   };
@@ -23,8 +22,8 @@ public:
   TheoreticalTool(const Part& part, MillingProcess rigid, const std::function<Vec3(const Vec3&)>& in_cut,
                   const Intervals& intervals);
 
-  /// [cell], at the end of the interval that is over by a time, s.
-  const std::vector<double>& presence(double time) const;
+  /// [cell], at the end of the interval that is over by the begin of a step.
+  const std::vector<double>& presence(std::int64_t step) const;
 
 private:
   Intervals intervals_;

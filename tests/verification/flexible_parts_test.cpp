@@ -3,6 +3,11 @@
 
 #include "results/checkpoint_folder.hpp"
 
+#include <fmt/format.h>
+#include <fstream>
+#include <map>
+#include <sstream>
+
 namespace cnem::testing {
 namespace {
 
@@ -62,6 +67,106 @@ TEST(FlexibleParts, EndWhereHexahedraFoldAndLeaveTheLastGoodStep) {
   EXPECT_NE(status.reason.find("hexahedron ("), std::string::npos) << status.reason;
   EXPECT_NE(status.reason.find("step "), std::string::npos) << status.reason;
   EXPECT_FALSE(results::list_checkpoints(folder.path()).empty());
+}
+
+TEST(FlexibleParts, LedgerAddsUpWhileTheyLoseMatter) { // cutting, held, damped and what leaves with chips
+  std::vector<double> residual;
+  for (const int steps : {360, 720}) {
+    const FinishedRun done = finish(milling_case(
+        "wall_removal", {"milling.length=4.5 mm", "part.removal.interval=60",
+                         "dexels.steps=" + std::to_string(steps), "part.rayleigh.stiffness=2 us"}));
+    for (const char* energy : {"chips", "damping", "kinetic", "elastic"})
+      EXPECT_GT(done.metric(std::string("milling.energy.") + energy), 0.0) << energy;
+    residual.push_back(done.status.energy_residual);
+  }
+  EXPECT_LT(residual[0], 3e-5); // the part alone takes 6e-3
+  EXPECT_LT(residual[1], 0.5 * residual[0]);
+}
+
+namespace {
+
+constexpr const char* stepped_wall = R"toml(
+[part]
+size = "100 40 4 mm"
+cells = "10 4 1"
+element = "plate_8"
+young = "200 GPa"
+density = "7800 kg/m3"
+clamped = ["y0"]
+damping = 0.01
+cutter = "0 40 2 mm"
+axis = "0 1 0"
+)toml";
+
+constexpr const char* lobes_along_it = R"toml(
+[analysis]
+type = "stability"
+[cutter]
+diameter = "12 mm"
+teeth = 3
+[cutting.forces]
+law = "linear"
+Ktc = "600 MPa"
+[milling]
+speed = "8000 rpm"
+feed = "0.1 mm"
+axial_depth = "1 mm"
+radial_depth = "1 mm"
+[part.zones.stock]
+from = "0 20 2 mm"
+to = "100 40 4 mm"
+[stability]
+places = "0 20 50 100 mm"
+takes = "stock"
+speeds = 3
+depths = 4
+)toml";
+
+} // namespace
+
+TEST(PartsAlongAPath, ModesAreThoseOfWhatTheCutterHasLeft) {
+  const TemporaryFolder folder("lobes");
+  const input::Case lobes =
+      input::read_case_text(std::string(stepped_wall) + lobes_along_it, "case.toml", {});
+  ASSERT_EQ(app::run(lobes, {.output = folder.path(), .force = true, .threads = 1, .version = "test"}),
+            Exit::done);
+  std::map<std::string, std::pair<double, double>> met; // "mode place": frequency, stiffness
+  std::ifstream file(folder.path() / results::files::modes);
+  std::string row;
+  std::getline(file, row);
+  while (std::getline(file, row)) {
+    std::vector<std::string> cell;
+    std::istringstream cells(row);
+    for (std::string text; std::getline(cells, text, ',');) cell.push_back(text);
+    ASSERT_EQ(cell.size(), 10U) << row;
+    EXPECT_EQ(cell[0], "part");
+    met[cell[1] + " at " + cell[4]] = {std::stod(cell[2]), std::stod(cell[5])};
+  }
+  EXPECT_EQ(met.size(), 4U * 6U);
+  for (const int place : {20, 50, 100}) { // analysis.type = "modes" of the same state
+    const TemporaryFolder beside("modes");
+    const input::Case modes = input::read_case_text(std::string(stepped_wall) + fmt::format(R"toml(
+[analysis]
+type = "modes"
+[part.zones.gone]
+from = "0 20 2 mm"
+to = "{0} 40 4 mm"
+taken = 0.999
+[part.points.P]
+at = "{0} 40 2 mm"
+)toml",
+                                                                                            place),
+                                                    "case.toml", {});
+    ASSERT_EQ(app::run(modes, {.output = beside.path(), .force = true, .threads = 1, .version = "test"}),
+              Exit::done);
+    const results::RunStatus left = results::read_status(beside.path());
+    for (int mode = 1; mode <= 6; ++mode) {
+      const auto& [frequency, stiffness] = met.at(fmt::format("{} at {}", mode, 1e-3 * place));
+      EXPECT_NEAR(frequency / left.metric(fmt::format("modes.part.f{}", mode)).value(), 1.0, 1e-6) << place;
+      EXPECT_NEAR(stiffness / left.metric(fmt::format("modes.part.P.k{}", mode)).value(), 1.0, 1e-6) << place;
+    }
+  }
+  EXPECT_LT(met.at("1 at 0.1").second, met.at("1 at 0").second);
 }
 
 } // namespace cnem::testing

@@ -52,4 +52,53 @@ TEST(MillingPasses, SurfaceIsThatOfTheLayersOfTheStock) {
   EXPECT_NEAR(removed, 10e-3 * 1e-3 * 1.5e-3, 2e-10);
 }
 
+namespace {
+
+/// The way and what is left in each layer, of the last pass through a stock with these upper corners, mm; its
+/// lower ones are (0, -5, 0) to (10, 0, 0).
+results::HistoryTable surface_of_stock(const Vec3& low, const Vec3& high, results::RunStatus& status) {
+  const TemporaryFolder folder("stock"), output("surface");
+  std::ofstream(folder.path() / "stock.stl")
+      << stl_hexahedron({Vec3(0, -5, 0), Vec3(10, -5, 0), Vec3(0, 0, 0), Vec3(10, 0, 0), low,
+                         Vec3(high.x(), low.y(), high.z()), Vec3(low.x(), high.y(), high.z()), high});
+  std::ofstream(folder.path() / "case.toml") << over_the_stock;
+  const input::Case input = input::read_case((folder.path() / "case.toml").string());
+  EXPECT_EQ(app::run(input, {.output = output.path(), .force = true, .threads = 1, .version = "test"}),
+            Exit::done);
+  status = results::read_status(output.path());
+  return results::read_history(output.path() / results::files::machined_surface);
+}
+
+} // namespace
+
+TEST(MillingPasses, SurfaceIsWhereAnyLayerOfTheStockReaches) { // its ends lean: 2 mm at the height of 2 mm
+  results::RunStatus status;
+  const results::HistoryTable surface = surface_of_stock({2, -5, 2}, {8, 0, 2}, status);
+  ASSERT_EQ(surface.column.size(), 5U) << "the way and four layers";
+  const std::vector<double>& way = surface.column[0];
+  for (std::size_t layer = 0; layer < 4; ++layer) {
+    const double height = 0.25e-3 + 0.5e-3 * static_cast<double>(layer), from = 8e-3 + height,
+                 to = 18e-3 - height;
+    for (std::size_t i = 0; i < way.size(); ++i) {
+      const double left = surface.column[layer + 1][i];
+      if (way[i] > from + 1e-4 && way[i] < to - 1e-4) {
+        EXPECT_LT(std::abs(left), 2e-6) << way[i];
+      } else if (way[i] < from - 1e-4 || way[i] > to + 1e-4) {
+        EXPECT_TRUE(std::isnan(left)) << way[i];
+      }
+    }
+  }
+  EXPECT_NEAR(way.front(), 8.25e-3, 0.05e-3);
+  EXPECT_NEAR(way.back(), 17.75e-3, 0.05e-3);
+  EXPECT_NEAR(status.metric("milling.peak_to_valley").value(), 0.2e-3 * 0.2e-3 / (8.0 * 6e-3), 1e-7);
+}
+
+TEST(MillingPasses, SurfaceIsWhereTheCutterHasTakenMatter) { // a chamfer that it does not reach, of 3 mm
+  results::RunStatus status;
+  const results::HistoryTable surface = surface_of_stock({0, -5, 2}, {10, -3, 2}, status);
+  // The side at y = -1 mm is below the chamfer up to 2/3 mm: in the lowest layer alone.
+  ASSERT_EQ(surface.column.size(), 2U);
+  EXPECT_LT(std::abs(status.metric("milling.location_error").value()), 1e-6);
+}
+
 } // namespace cnem::testing

@@ -2,6 +2,7 @@
 #include "machining/hexahedral_map.hpp"
 
 #include "core/error.hpp"
+#include "core/fields/memory_archive.hpp"
 #include "machining/milling_process.hpp"
 #include "tests/unit/machining/benchmarks.hpp"
 
@@ -137,14 +138,37 @@ std::unique_ptr<FlexiblePart> part(const MillingCut& cut, const ProcessSettings&
       nodes(over, [&](const Vec3& x) { return Vec3(share(x) * own.direction / std::sqrt(own.mass())); });
   return std::make_unique<FlexiblePart>(
       std::move(over),
-      std::make_unique<ModalMotion>(shape, std::vector{ModalMotion::Coordinate{own.omega(), own.damping}},
-                                    full_turn / settings.spindle / settings.steps));
+      std::make_unique<ModalMotion>(shape, std::vector{ModalMotion::Coordinate{own.omega(), own.damping}}));
 }
 
 std::vector<ProcessStep> steps_of(MillingProcess process) {
   std::vector<ProcessStep> steps;
   while (!process.at_end()) steps.push_back(process.advance());
   return steps;
+}
+
+/// Names and bits of what evolves.
+class Bits final : public Archive {
+public:
+  bool loading() const override { return false; }
+  std::string text;
+
+private:
+  std::size_t extent(const std::string&) override { return 0; }
+  void carry(const std::string& name, const char*, std::span<double> values) override {
+    text.append(name).append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
+  }
+  void carry(const std::string& name, std::span<std::int64_t> values) override {
+    text.append(name).append(reinterpret_cast<const char*>(values.data()), values.size_bytes());
+  }
+  void carry(const std::string& name, std::string& value) override { text.append(name).append(value); }
+};
+
+/// What a checkpoint holds of it.
+std::string state_of(MillingProcess& process) {
+  Bits bits;
+  process.archive(bits);
+  return bits.text;
 }
 
 void expect_the_same_chips(const std::vector<ProcessStep>& a, const std::vector<ProcessStep>& b,
@@ -206,8 +230,94 @@ TEST(FlexiblePart, TakesWhatDrivesPutInBeyondTheCut) { // also where it is lifte
                            return 1.0 + 0.1 * x.z() / 1e-3;
                          }));
   while (!process.at_end()) process.advance();
-  EXPECT_GT(process.ledger().part, 0.0);
-  EXPECT_LT(process.ledger().share(), 1e-4);
+  const MillingLedger& ledger = process.ledger();
+  EXPECT_GT(ledger.kinetic, 0.0);
+  EXPECT_GT(ledger.elastic, 0.0);
+  EXPECT_GT(ledger.damping, 0.0);
+  EXPECT_EQ(ledger.chips, 0.0) << "modes of one structure";
+  EXPECT_LT(ledger.share(), 1e-4);
+  const EnergyLedger& part = process.part()->energy();
+  EXPECT_LT(std::abs(part.imbalance()), 1e-9 * part.work);
+}
+
+namespace {
+
+/// Two passes round a corner of a block, the second into what the first has left.
+ProcessSettings round_a_corner(const std::optional<DriveTables>& drive) {
+  std::vector<ToolPath> passes;
+  for (const double off : {5.6e-3, 5.2e-3}) {
+    const Vec2 corner(2e-3, -2e-3), from(-8e-3, off), top(2e-3, off), side(2e-3 + off + 2e-3, -2e-3);
+    passes.emplace_back(std::vector<CurvePiece>{
+        {.from = from, .to = top, .name = ""},
+        {.from = top, .to = side, .centre = corner, .radius = off + 2e-3, .clockwise = true, .name = ""},
+        {.from = side, .to = side + Vec2(0.0, -9e-3), .name = ""}});
+  }
+  return {.spindle = 800.0,
+          .axial_depth = 2e-3,
+          .start = ProcessSettings::Start::outside,
+          .pitch = 2e-4,
+          .layers = 3,
+          .steps = 90,
+          .passes = std::move(passes),
+          .blank = Blank{.low = Vec2(0.0, -6e-3), .high = Vec2(4e-3, 0.0)},
+          .drive = drive};
+}
+
+} // namespace
+
+TEST(FlexiblePart, ATranslationIsThatOfTheToolInPassesAndWhileTheSpeedChanges) {
+  MillingCut cut = helical(Engagement::Side::down);
+  cut.feed = 2e-4;
+  const DriveTables drive{TimeTable({0.0, 0.4, 0.6}, {800.0, 800.0, 500.0}), TimeTable(2e-4)};
+  for (const auto& changes : {std::optional<DriveTables>{}, std::optional<DriveTables>{drive}}) {
+    const ProcessSettings settings = round_a_corner(changes);
+    const std::vector<ProcessStep> of_tool = steps_of(MillingProcess(cut, {swinging}, settings));
+    const std::vector<ProcessStep> of_part = steps_of(
+        MillingProcess(cut, {}, settings, part(cut, settings, swinging, [](const Vec3&) { return 1.0; })));
+    expect_the_same_chips(of_tool, of_part, 1e-9);
+  }
+}
+
+TEST(FlexiblePart, GoesOnFromWhatACheckpointHoldsWithinPasses) {
+  MillingCut cut = helical(Engagement::Side::down);
+  cut.feed = 4e-4;
+  const ProcessSettings settings =
+      round_a_corner(DriveTables{TimeTable({0.0, 0.15, 0.4}, {800.0, 800.0, 500.0}), TimeTable(4e-4)});
+  const auto process = [&] {
+    return MillingProcess(cut, {}, settings, part(cut, settings, swinging, [](const Vec3&) { return 1.0; }));
+  };
+  MillingProcess whole = process(), rest = process();
+  const std::int64_t second = whole.motion().passes()[1].begin;
+  for (const std::int64_t at : {second / 2, second, second + 1, second + second / 2}) {
+    while (whole.steps() < at) whole.advance();
+    MemoryArchive checkpoint;
+    whole.archive(checkpoint);
+    checkpoint.recall();
+    rest = process();
+    rest.archive(checkpoint);
+    EXPECT_EQ(state_of(rest), state_of(whole)) << at;
+    for (int step = 0; step < 100; ++step) {
+      whole.advance();
+      rest.advance();
+    }
+    EXPECT_EQ(state_of(rest), state_of(whole)) << at;
+  }
+}
+
+TEST(FlexiblePart, IsAtRestBetweenPasses) {
+  const MillingCut cut = helical(Engagement::Side::down);
+  const ProcessSettings settings = round_a_corner(std::nullopt);
+  MillingProcess process(cut, {}, settings, part(cut, settings, swinging, [](const Vec3&) { return 1.0; }));
+  const std::int64_t second = process.motion().passes()[1].begin;
+  while (process.steps() < second) process.advance();
+  EXPECT_GT(process.part()->end().largest(), 0.0);
+  const MillingLedger before = process.ledger();
+  process.advance(); // in the air
+  EXPECT_EQ(process.part()->end().largest(), 0.0);
+  EXPECT_EQ(process.ledger().kinetic + process.ledger().elastic, 0.0);
+  EXPECT_EQ(process.ledger().damping, before.damping + (before.kinetic + before.elastic));
+  while (!process.at_end()) process.advance();
+  EXPECT_LT(process.ledger().share(), 1e-3) << "90 steps a turn";
 }
 
 TEST(FlexiblePart, EndsWhereItIsNotOneToOneAnyMore) {
@@ -218,15 +328,42 @@ TEST(FlexiblePart, EndsWhereItIsNotOneToOneAnyMore) {
   MillingProcess process(cut, {}, few_turns(), part(cut, few_turns(), heavy, [](const Vec3& x) {
                            return x.x() > 3e-3 ? 1.0 : -1.0;
                          }));
-  const double volume = process.volume();
+  std::string before;
   try {
-    while (!process.at_end()) process.advance();
+    while (!process.at_end()) {
+      before = state_of(process);
+      process.advance();
+    }
     FAIL() << "a wall as soft as that folds";
   } catch (const DivergenceError& error) {
     EXPECT_NE(std::string(error.what()).find("hexahedron ("), std::string::npos) << error.what();
   }
-  EXPECT_LE(process.volume(), volume);
-  EXPECT_TRUE(std::isfinite(process.volume()));
+  EXPECT_EQ(state_of(process), before) << "to the bit";
+}
+
+TEST(FlexiblePart, AStepThatIsNotMadeLeavesNothing) { // forces and vibration do not agree
+  MillingCut cut = helical(Engagement::Side::up);
+  Mode soft = swinging; // an edge of its stiffness passes far beyond it in a step
+  soft.frequency = 2e4;
+  soft.stiffness = 1e3;
+  for (const bool mapped : {false, true}) {
+    ProcessSettings settings = few_turns();
+    settings.steps = 90;
+    MillingProcess process(cut, mapped ? std::vector<Mode>{} : std::vector<Mode>{soft}, settings,
+                           mapped ? part(cut, settings, soft, [](const Vec3&) { return 1.0; }) : nullptr);
+    std::string before;
+    bool failed = false;
+    while (!process.at_end() && !failed) {
+      before = state_of(process);
+      try {
+        process.advance();
+      } catch (const DivergenceError&) { failed = true; }
+    }
+    ASSERT_TRUE(failed) << mapped;
+    EXPECT_EQ(state_of(process), before) << mapped;
+    EXPECT_THROW(process.advance(), DivergenceError) << "the same step once more";
+    EXPECT_EQ(state_of(process), before) << mapped;
+  }
 }
 
 } // namespace cnem::machining

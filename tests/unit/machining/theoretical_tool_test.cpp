@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace cnem::machining {
 
 TEST(TheoreticalTool, TakesWhatARigidCutterHasPassed) {
@@ -21,21 +23,22 @@ TEST(TheoreticalTool, TakesWhatARigidCutterHasPassed) {
                                  .layers = 2,
                                  .steps = 360};
   MillingProcess rigid(cut, {}, settings);
-  const double duration = rigid.motion().duration(), dt = full_turn / 800.0 / 360;
+  const std::int64_t end_step = rigid.motion().passes().back().end;
   // The machined side, at the height of the tip: y = 1.5, z = 2 mm in the part.
   const Vec3 origin(0.0, 1.5e-3 + cut.cutter.radius(), 2e-3);
   const TheoreticalTool tool(part, std::move(rigid), [&](const Vec3& x) { return Vec3(x - origin); },
-                             {.dt = dt, .interval = 200, .most = 0.9});
+                             {.interval = 200, .most = 0.9});
   double before = 2.0;
   for (const double share : {0.0, 0.3, 0.6, 1.0}) {
     double sum = 0.0;
-    for (const double presence : tool.presence(share * duration)) sum += presence;
+    for (const double presence : tool.presence(std::llround(share * static_cast<double>(end_step))))
+      sum += presence;
     EXPECT_LT(sum, before * static_cast<double>(part.cells()));
     before = sum / static_cast<double>(part.cells());
   }
   for (std::size_t c = 0; c < part.cells(); ++c) {
     const bool outer = part.low(c).y() > 0.5e-3 && part.low(c).z() > 1e-3;
-    const double end = tool.presence(duration)[c];
+    const double end = tool.presence(end_step)[c];
     // Half of the outer upper cells is gone where the axis has been, nothing beyond where the disc reaches.
     const double reach = 5e-3 + 3.12e-3 - part.low(c).x(); // of the disc into the cell
     if (!outer || reach < 0.0)

@@ -126,8 +126,8 @@ TEST(Passes, APassTakesWhatLiesInItsWay) {
   // are left.
   EXPECT_NEAR(first, -std::sqrt(36.0 - 25.0) * 1e-3, 7e-4);
   EXPECT_NEAR(last, 20e-3, 7e-4);
-  EXPECT_NEAR(process.left_beside(0, 20e-3).value(), 0.0, 1e-5);
-  EXPECT_FALSE(process.left_beside(0, 5e-3)) << "beside the block";
+  EXPECT_NEAR(process.left_beside(0, 20e-3, process.stock(0)).value(), 0.0, 1e-5);
+  EXPECT_FALSE(process.left_beside(0, 5e-3, process.stock(0))) << "beside the block";
 }
 
 TEST(Passes, TheNextOneCutsWhatTheLastOneLeft) {
@@ -179,7 +179,7 @@ TEST(Passes, AnArcIsCutAsASlotAroundIt) {
   EXPECT_NEAR(removed / slot, 1.0, 1e-4);
   EXPECT_NEAR(power / (767e6 * removed), 1.0, 1e-10);
   const double way = 8e-3 + 0.125 * full_turn * ring; // the inner side lies on the left, at 45°
-  const double left = process.left_beside(0, way).value();
+  const double left = process.left_beside(0, way, process.stock(0)).value();
   EXPECT_NEAR(left, 0.0, 1e-4) << "down-milling leaves the side on the right of the feed";
 }
 
