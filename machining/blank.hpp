@@ -10,6 +10,7 @@ namespace cnem::machining {
 
 struct Blank {
   Vec2 low = Vec2::Zero(), high = Vec2::Zero(); ///< m, across the axis of the cutter
+  double height = 0.0; ///< m, from 0; edges reach through all of it that is over their tip
   /// m, in axes of the cut; all of the box without triangles.
   TriangleSurface surface{};
 };

@@ -23,7 +23,7 @@ Workpiece workpiece_of(const MillingCut& cut, const ProcessSettings& settings) {
   using enum ProcessSettings::Start;
   if (settings.blank)
     return {{settings.blank->low.x(), settings.blank->low.y(), 0.0},
-            {settings.blank->high.x(), settings.blank->high.y(), settings.axial_depth}};
+            {settings.blank->high.x(), settings.blank->high.y(), settings.blank->height}};
   const Cutter& cutter = cut.cutter;
   const double r = cutter.radius(), beside = beyond(cutter), depth = cut.engagement.radial_depth;
   const bool up = cut.engagement.side == Engagement::Side::up, slot = depth >= cutter.diameter;
@@ -34,6 +34,13 @@ Workpiece workpiece_of(const MillingCut& cut, const ProcessSettings& settings) {
            slot || !up ? -r - beside : r - depth, 0.0},
           {start_of(cutter, settings.start) + settings.length + r + beside,
            slot || up ? r + beside : depth - r, settings.axial_depth}};
+}
+
+std::vector<Slice> slices_of(const ProcessSettings& settings) {
+  std::vector<double> tips;
+  for (const ToolPath& pass : settings.passes) tips.push_back(pass.tip());
+  return slices(settings.blank ? settings.blank->height : settings.axial_depth,
+                settings.axial_depth / settings.layers, tips);
 }
 
 ToolMotion motion_of(const MillingCut& cut, const ProcessSettings& settings) {
@@ -55,7 +62,7 @@ void MillingProcess::take_blank() {
   const Vec2 pitch = Vec2::Constant(std::max(settings_.pitch, cut_.cutter.radius() / degrees));
   if (settings_.blank) {
     const Blank& blank = *settings_.blank;
-    for (std::size_t k = 0; k < edges_.layers(); ++k) {
+    for (std::size_t k = 0; k < slice_.size(); ++k) {
       if (blank.surface.triangles.empty())
         layer_.push_back(k > 0 ? layer_.back() : DexelLayer(blank.low, blank.high, pitch));
       else
@@ -68,10 +75,10 @@ void MillingProcess::take_blank() {
   const Vec2 low = block.low.head<2>(), high = block.high.head<2>();
   const DexelLayer whole(low, high, pitch);
   block_ = whole.area() * settings_.axial_depth;
-  for (std::size_t k = 0; k < edges_.layers();
+  for (std::size_t k = 0; k < slice_.size();
        ++k) { // what earlier turns have left: the disc, and its way there
-    const double radius = edges_.radius(k);
-    if (k > 0 && radius == edges_.radius(k - 1)) {
+    const double radius = edges().radius(k);
+    if (k > 0 && radius == edges().radius(k - 1)) {
       layer_.push_back(layer_.back());
       continue;
     }
@@ -84,16 +91,19 @@ void MillingProcess::take_blank() {
 }
 
 void MillingProcess::begin_pass(std::size_t pass) {
+  pass_ = pass;
   // On its way there, in the air, what vibrates comes to rest.
   ledger_.damping += ledger_.kinetic + ledger_.elastic;
   ledger_.kinetic = ledger_.elastic = 0.0;
   state_.setZero();
   shift_.assign(layer_.size(), Vec3::Zero());
   force_ = shift_;
-  if (flanks_) flanks_->clear();
+  farthest_ = 0.0;
+  take_flanks();
   const Vec2 at = axis_at(static_cast<double>(step_));
   for (std::size_t k = 0; k < layer_.size(); ++k) {
-    const double radius = edges_.radius(k);
+    if (!edges().reaches(k)) continue;
+    const double radius = edges().radius(k);
     DexelLayer without = layer_[k];
     const double there = without.erase_disc(at, radius);
     constexpr double touches = 1e-6; // of the area of the cutter
@@ -103,30 +113,30 @@ void MillingProcess::begin_pass(std::size_t pass) {
       throw DivergenceError(
           fmt::format("pass {} begins in matter: {:.4g} mm² of it lie within the cutter at ({:.6g}, {:.6g}) "
                       "mm, {:.4g} "
-                      "mm over the tip, expected a start beside the workpiece, or milling.start = \"hole\"",
-                      pass + 1, 1e6 * there, 1e3 * at.x(), 1e3 * at.y(), 1e3 * height(k)),
+                      "mm over its tip, expected a start beside the workpiece, or milling.start = \"hole\"",
+                      pass + 1, 1e6 * there, 1e3 * at.x(), 1e3 * at.y(), 1e3 * edges().over_tip(k)),
           -1, "displacement");
   }
 }
 
 double MillingProcess::volume() const {
   double sum = 0.0;
-  for (const DexelLayer& layer : layer_) sum += layer.area();
-  return sum * edges_.thickness();
+  for (std::size_t k = 0; k < layer_.size(); ++k) sum += layer_[k].area() * slice_[k].thickness;
+  return sum;
 }
 
 std::optional<double> MillingProcess::left_at(std::size_t layer, double x) const {
   const std::vector<Interval> matter = layer_[layer].matter(1, x);
   if (matter.empty()) return std::nullopt;
   const bool up = cut_.engagement.side == Engagement::Side::up;
-  return up ? edges_.radius(layer) - matter.back().low : matter.front().high + edges_.radius(layer);
+  return up ? edges().radius(layer) - matter.back().low : matter.front().high + edges().radius(layer);
 }
 
 std::optional<double> MillingProcess::left_beside(std::size_t layer, double way) const {
   assert(motion_.last_path());
   const auto [at, along] = motion_.last_path()->at(way);
   const bool up = cut_.engagement.side == Engagement::Side::up;
-  const double r = edges_.radius(layer);
+  const double r = edges().radius(layer);
   const std::vector<Interval> matter = layer_[layer].matter(at, up ? left_normal(along) : right_normal(along),
                                                             cut_.cutter.radius() + beyond(cut_.cutter));
   if (matter.empty()) return std::nullopt;

@@ -16,28 +16,33 @@ MillingProcess::MillingProcess(MillingCut cut, std::vector<Mode> modes, const Pr
     : cut_(std::move(cut)), modes_(std::move(modes)), settings_(settings), motion_(motion_of(cut_, settings)),
       dt_(motion_.dt(0)),
       feed_speed_(cut_.feed * static_cast<double>(cut_.cutter.teeth()) * settings.spindle / full_turn),
-      edges_(cut_, settings.axial_depth, settings.layers, full_turn / settings.steps),
-      part_(std::move(part)) {
+      slice_(slices_of(settings_)), part_(std::move(part)) {
   assert(settings.passes.empty() == !settings.blank);
   assert(!part_ || (settings.passes.empty() && !settings.drive));
+  for (std::size_t pass = 0; pass < motion_.passes().size(); ++pass)
+    edges_.emplace_back(cut_, slice_, motion_.tip(pass), full_turn / settings.steps);
   take_blank();
   for (const Mode& mode : modes_) {
     free_.emplace_back(mode, dt_);
     loss_.push_back(damping_loss(mode, dt_));
   }
   state_ = Eigen::MatrixXd::Zero(2, static_cast<Eigen::Index>(modes_.size()));
-  bite_.resize(edges_.layers() * edges_.teeth());
+  bite_.resize(edges().layers() * edges().teeth());
   way_.resize(bite_.size());
   if (part_) edge_.resize(bite_.size());
-  if (cut_.flank.presses()) {
-    std::vector<double> radius;
-    for (std::size_t k = 0; k < layer_.size(); ++k) radius.push_back(edges_.radius(k));
-    flanks_.emplace(cut_.flank, radius, edges_.teeth(), full_turn / settings.steps);
-    pressed_.resize(bite_.size());
-  }
+  take_flanks();
   shape_ = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(layer_.size()), state_.cols());
   shift_.assign(layer_.size(), Vec3::Zero());
   force_ = shift_;
+}
+
+void MillingProcess::take_flanks() {
+  if (!cut_.flank.presses()) return;
+  std::vector<double> radius; // without edges none is pressed in: any will do
+  for (std::size_t k = 0; k < layer_.size(); ++k)
+    radius.push_back(edges().reaches(k) ? edges().radius(k) : cut_.cutter.radius());
+  flanks_.emplace(cut_.flank, radius, edges().teeth(), full_turn / settings_.steps);
+  pressed_.assign(bite_.size(), 0.0);
 }
 
 Vec2 MillingProcess::axis_at(double at) const { return motion_.axis(motion_.pass_of(step_), at); }
@@ -60,8 +65,11 @@ void MillingProcess::begin_step() {
 void MillingProcess::take_shapes() {
   const double x = axis_at(static_cast<double>(step_) + 0.5).x();
   for (std::size_t i = 0; i < modes_.size(); ++i)
-    for (std::size_t k = 0; k < layer_.size(); ++k)
-      shape_(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(i)) = modes_[i].shape(x, height(k));
+    for (std::size_t k = 0; k < layer_.size(); ++k) { // heights of a tool are those over its tip
+      const double z = modes_[i].of == Mode::Of::tool ? edges().over_tip(k) : height(k);
+      shape_(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(i)) =
+          edges().reaches(k) ? modes_[i].shape(x, z) : 0.0;
+    }
 }
 
 MillingProcess::PerLayer MillingProcess::shift_of(const Eigen::MatrixXd& state) const {
@@ -115,7 +123,7 @@ Sweep MillingProcess::in_material(std::size_t layer, std::size_t tooth,
     if (cut_.cutter.corner > 0.0) { // a layer that is higher is cut farther up the profile
       CutterPlace beside = at;
       beside.axis.z() += edge.z() - z;
-      rake = edges_.rake(layer, tooth, beside, depth);
+      rake = edges().rake(layer, tooth, beside, depth);
       edge = map.material(in_space(rake.edge));
     }
     return {edge.head<2>(), map.material(in_space(rake.inner)).head<2>()};
@@ -144,10 +152,17 @@ EdgeLoad MillingProcess::bear(const PerLayer& shift, PerLayer& force, TakeBite&&
   const double forward = 1.5 * feed_speed_ / settings_.spindle; // nearer to the axis rakes go backwards
 #pragma omp parallel for schedule(static) if (bite_.size() >= 256)
   for (std::size_t k = 0; k < layer_.size(); ++k) {
-    const double r = edges_.radius(k), depth = std::min(deep, std::max(r - forward, 0.5 * r));
+    if (!edges().reaches(k)) {
+      for (std::size_t i = k * edges().teeth(); i < (k + 1) * edges().teeth(); ++i) {
+        bite_[i] = {};
+        way_[i].setZero();
+      }
+      continue;
+    }
+    const double r = edges().radius(k), depth = std::min(deep, std::max(r - forward, 0.5 * r));
     const CutterPlace first = shifted(from, shift_[k]), last = shifted(to, shift[k]);
-    for (std::size_t j = 0; j < edges_.teeth(); ++j) {
-      Sweep sweep{edges_.rake(k, j, first, depth), edges_.rake(k, j, last, depth)};
+    for (std::size_t j = 0; j < edges().teeth(); ++j) {
+      Sweep sweep{edges().rake(k, j, first, depth), edges().rake(k, j, last, depth)};
       double lifted = 0.0; // m, by the part, along the axis
       if (part_) {
         failure.guard(static_cast<std::ptrdiff_t>(k), [&] {
@@ -156,13 +171,13 @@ EdgeLoad MillingProcess::bear(const PerLayer& shift, PerLayer& force, TakeBite&&
         const Vec2 middle = 0.5 * (sweep.from.edge + sweep.to.edge);
         const Vec3 edge(middle.x(), middle.y(), height(k));
         lifted = part_->end().displacement(edge).z() - part_->begin().displacement(edge).z();
-        edge_[k * edges_.teeth() + j] = edge;
+        edge_[k * edges().teeth() + j] = edge;
       }
       const Vec2 way = sweep.to.edge - sweep.from.edge;
-      way_[k * edges_.teeth() + j] = {way.x(), way.y(), last.axis.z() - first.axis.z() - lifted};
-      const std::size_t i = k * edges_.teeth() + j;
+      way_[k * edges().teeth() + j] = {way.x(), way.y(), last.axis.z() - first.axis.z() - lifted};
+      const std::size_t i = k * edges().teeth() + j;
       bite_[i] = bite(k, sweep);
-      if (flanks_) pressed_[i] = flanks_->pressed(i, edges_.arm(k, j, last), way_of(i));
+      if (flanks_) pressed_[i] = flanks_->pressed(i, edges().arm(k, j, last), way_of(i));
     }
   }
   failure.rethrow();
@@ -170,11 +185,11 @@ EdgeLoad MillingProcess::bear(const PerLayer& shift, PerLayer& force, TakeBite&&
   EdgeLoad load;
   for (std::size_t k = 0, i = 0; k < layer_.size(); ++k) {
     const Vec3 below = load.force;
-    for (std::size_t j = 0; j < edges_.teeth(); ++j, ++i) {
+    for (std::size_t j = 0; j < edges().teeth(); ++j, ++i) {
       const Vec3 others = load.force;
-      edges_.add(load, k, j, bite_[i], way_[i], dt_, from, to);
+      edges().add(load, k, j, bite_[i], way_[i], dt_, from, to);
       if (flanks_)
-        edges_.plough(load, k, j, 0.5 * (flanks_->before(i) + pressed_[i]), way_[i], dt_, from, to);
+        edges().plough(load, k, j, 0.5 * (flanks_->before(i) + pressed_[i]), way_[i], dt_, from, to);
       if (part_) part_->press(edge_[i], others - load.force);
     }
     force[k] = load.force - below;
@@ -303,6 +318,10 @@ void MillingProcess::archive(Archive& archive) {
   }
   archive.number("milling/farthest", "m", farthest_);
   ledger_.archive(archive);
+  if (archive.loading() && step_ > 0) { // a pass that is about to begin does so by itself
+    pass_ = motion_.pass_of(step_ - 1);
+    take_flanks();
+  }
   if (flanks_) flanks_->archive(archive);
   if (part_) part_->archive(archive);
   for (std::size_t k = 0; k < layer_.size(); ++k)

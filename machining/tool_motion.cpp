@@ -9,7 +9,8 @@
 
 namespace cnem::machining {
 
-ToolPath::ToolPath(std::vector<CurvePiece> pieces) : pieces_(std::move(pieces)), begin_{0.0} {
+ToolPath::ToolPath(std::vector<CurvePiece> pieces, double tip)
+    : pieces_(std::move(pieces)), tip_(tip), begin_{0.0} {
   assert(!pieces_.empty());
   for (const CurvePiece& piece : pieces_) begin_.push_back(begin_.back() + piece.length());
 }
@@ -82,6 +83,7 @@ void ToolMotion::plan(const std::vector<double>& lengths, double dwell,
   std::int64_t step = 0;
   for (const double length : lengths) {
     Pass pass{.begin = step, .end = step};
+    if (!drive) way = 0.0; // steps of a pass do not depend on those before it, to the last bit
     const double begin = way;
     constexpr double whole = 1.0 - 1e-12;
     while (way - begin < whole * length) {
@@ -114,9 +116,14 @@ double ToolMotion::way(double at) const {
   return k + 1 < way_.size() ? way_[k] + (at - before) * (way_[k + 1] - way_[k]) : way_[k];
 }
 
+double ToolMotion::way_of(std::size_t pass, double at) const {
+  const double begin = static_cast<double>(passes_[pass].begin);
+  return way_.empty() ? way(at - begin) : way(at) - way(begin);
+}
+
 Vec2 ToolMotion::axis(std::size_t pass, double at) const {
   if (path_.empty()) return {start_ + std::min(way(at), length_), 0.0};
-  return path_[pass].at(way(at) - way(static_cast<double>(passes_[pass].begin))).at;
+  return path_[pass].at(way_of(pass, at)).at;
 }
 
 } // namespace cnem::machining

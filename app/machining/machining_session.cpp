@@ -247,6 +247,18 @@ void describe(const input::Case& input, Checked& checked) {
 
 } // namespace
 
+namespace {
+
+/// "3, tips at 4 mm, 2 mm, 0 m"
+std::string tips_text(const input::MachiningCase& milling) {
+  std::string text = fmt::format("{}, tips at ", milling.passes.size());
+  for (std::size_t k = 0; k < milling.passes.size(); ++k)
+    text += (k > 0 ? ", " : "") + si_format(milling.passes[k].tip(), "m");
+  return text;
+}
+
+} // namespace
+
 Checked check_machining(const input::Case& input) {
   Checked checked;
   if (!input.machining) {
@@ -285,6 +297,7 @@ Checked check_machining(const input::Case& input) {
     const double turns = milling.length / (milling.cut.feed * static_cast<double>(cutter.teeth()));
     add("path", fmt::format("{}, {} turns of {} steps", si_format(milling.length, "m"),
                             results::number_format(turns), dexels.steps));
+    if (!milling.passes.empty()) add("passes", tips_text(milling));
     add("dexels", fmt::format("{} apart, {} layers", si_format(dexels.pitch, "m"), dexels.layers));
     checked.numbers.emplace_back("steps", turns * dexels.steps);
     return checked;

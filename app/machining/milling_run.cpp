@@ -34,6 +34,7 @@ const std::vector<std::string> history_columns{"time[s]",
                                                "z[m]",
                                                "axis_x[m]",
                                                "axis_y[m]",
+                                               "axis_z[m]",
                                                "energy.spindle[J]",
                                                "energy.feed[J]",
                                                "energy.cutting[J]",
@@ -141,6 +142,7 @@ MillingRun::MillingRun(const input::Case& input, const RunOptions& options, RunO
 void MillingRun::archive(Archive& archive) {
   process_.archive(archive);
   steady_.archive(archive);
+  passes_.archive(archive);
   vibration_.archive(archive);
   archive.integer("run/unsettled_steps", unsettled_steps_);
   archive.number("run/unsettled", "m", unsettled_);
@@ -149,7 +151,9 @@ void MillingRun::archive(Archive& archive) {
 void MillingRun::advance() {
   const double step_dt = dt(), at = static_cast<double>(steps()) + 0.5;
   const Vec2 axis = process_.axis();
+  const double tip = process_.tip();
   const machining::ProcessStep step = made_step();
+  passes_.add(process_, step);
   if (counts_.holds(at)) steady_.add(step, step_dt);
   if (heard_.holds(at)) vibration_.add(step.force, step.displacement);
   if (step.unsettled > 0.0) {
@@ -171,6 +175,7 @@ void MillingRun::advance() {
                        step.displacement.z(),
                        axis.x(),
                        axis.y(),
+                       tip,
                        ledger.spindle,
                        ledger.feed,
                        ledger.cutting,
@@ -265,6 +270,17 @@ void MillingRun::judge() {
                                 "radial depth: vibrations are not small beside the cut",
                                 si_format(steady.displacement, "m")))
              .what());
+  passes_.tell(process_.motion(), status_);
+  constexpr double rounding = 1e-6;
+  if (const auto [pass, depth] = passes_.deepest();
+      !modes_.empty() && depth > (1.0 + rounding) * milling.axial_depth)
+    warn(
+        input_
+            .error("milling.axial_depth",
+                   fmt::format("pass {} cuts {} deep, expected at most {}: for that depth lobes of this case "
+                               "are made",
+                               pass + 1, si_format(depth, "m"), si_format(milling.axial_depth, "m")))
+            .what());
   if (unsettled_steps_ > 0)
     warn(input_
              .error("dexels.steps",

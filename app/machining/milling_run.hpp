@@ -1,6 +1,7 @@
 #pragma once
 // One milling cut in the time domain: forces, vibrations, and the surface that is left.
 #include "app/machining/machined_surface.hpp"
+#include "app/machining/pass_records.hpp"
 #include "app/machining/stepped_run.hpp"
 #include "machining/cut_vibration.hpp"
 #include "machining/milling_process.hpp"
@@ -50,8 +51,9 @@ private:
   Window steady_turns(double share, double most) const;
 
   machining::MillingProcess process_;
-  Window counts_, heard_;        ///< turns that stand for forces, and for vibration
-  Course steady_;                ///< of the last turns
+  Window counts_, heard_; ///< turns that stand for forces, and for vibration
+  Course steady_;         ///< of the last turns
+  PassRecords passes_;
   double first_frequency_ = 0.0; ///< Hz, of a part that deforms, at first
 
   machining::CutVibration vibration_; ///< of the turns that stand for the cut
