@@ -1,6 +1,7 @@
 // Reads how a cutter goes through which workpiece: passes, a blank, speed and feed over time.
 #include "input/case_machining.hpp"
 #include "input/case_parts.hpp"
+#include "input/left_workpiece.hpp"
 #include "input/outline.hpp"
 #include "input/triangle_file.hpp"
 
@@ -38,6 +39,24 @@ std::vector<machining::ToolPath> read_passes(const Setting& milling, Diagnostics
   return passes;
 }
 
+/// The folder of the table `workpiece`, from the root; the checksum of what the run there has left stands in
+/// the table then. Where nothing is left there, the run says why.
+std::string read_earlier_run(Setting& table, const std::string& case_path, Diagnostics& diagnostics) {
+  Setting& run = *table.find("run");
+  for (const char* other : {"from", "to", "height", "stl"})
+    if (const Setting* given = table.find(other))
+      diagnostics.add(
+          Mistake::conflict, given->where, given->path,
+          fmt::format("found beside {}, expected one workpiece: an earlier run has left all of it",
+                      run.path));
+  std::string folder = from_case(std::get<std::string>(run.value), case_path);
+  while (folder.size() > 1 && folder.ends_with('/')) folder.pop_back();
+  run.value = folder;
+  if (const std::optional<std::string> bytes = bytes_of_file(folder + '/' + left_workpiece))
+    take_checksum(table, "run", *bytes, diagnostics);
+  return folder;
+}
+
 std::optional<machining::Blank> read_blank(Setting& table, const std::string& case_path,
                                            Diagnostics& diagnostics) {
   machining::Blank blank;
@@ -45,9 +64,11 @@ std::optional<machining::Blank> read_blank(Setting& table, const std::string& ca
   const Setting *from = table.find("from"), *to = table.find("to");
   Setting* stl = table.find("stl");
   if (stl ? from || to : !from || !to) {
-    diagnostics.add(stl ? Mistake::conflict : Mistake::missing_key, table.where, table.path,
-                    stl ? "found corners and triangles, expected either `from` and `to` or `stl`"
-                        : "missing, expected two opposite corners, `from` and `to`, or `stl`");
+    diagnostics.add(
+        stl ? Mistake::conflict : Mistake::missing_key, table.where, table.path,
+        stl ? "found corners and triangles, expected either `from` and `to` or `stl`"
+            : "missing, expected two opposite corners, `from` and `to`, or `stl`, or the folder of "
+              "an earlier `run`");
     return std::nullopt;
   }
   if (!stl) {
@@ -134,14 +155,18 @@ void read_path(Setting& root, MachiningCase& read, const std::string& case_path,
   read.passes = read_passes(milling, diagnostics);
   if (milling.entries("passes").empty())
     diagnostics.add(Mistake::range, passes->where, passes->path, "found no pass, expected at least one");
+  read.length = 0.0;
+  for (const machining::ToolPath& pass : read.passes) read.length += pass.length();
+  if (workpiece->find("run")) {
+    read.earlier_run = read_earlier_run(*workpiece, case_path, diagnostics);
+    return;
+  }
   double highest = 0.0;
   for (const machining::ToolPath& pass : read.passes) highest = std::max(highest, pass.tip());
   workpiece->set_default("height", highest + read.axial_depth);
   read.blank = read_blank(*workpiece, case_path, diagnostics);
   if (!read.blank || read.passes.empty()) return;
   check_tips(milling, read.blank->height, diagnostics);
-  read.length = 0.0;
-  for (const machining::ToolPath& pass : read.passes) read.length += pass.length();
   constexpr double most_cells = 2e8, degrees = 60.0;
   const Vec2 size = read.blank->high - read.blank->low;
   const double cell = std::max(read.dexels.pitch, read.cut.cutter.radius() / degrees);

@@ -39,8 +39,9 @@ Workpiece workpiece_of(const MillingCut& cut, const ProcessSettings& settings) {
 std::vector<Slice> slices_of(const ProcessSettings& settings) {
   std::vector<double> tips;
   for (const ToolPath& pass : settings.passes) tips.push_back(pass.tip());
-  return slices(settings.blank ? settings.blank->height : settings.axial_depth,
-                settings.axial_depth / settings.layers, tips);
+  const double most = settings.axial_depth / settings.layers;
+  if (settings.blank && settings.blank->left) return divided(settings.blank->left->slices, most, tips);
+  return slices(settings.blank ? settings.blank->height : settings.axial_depth, most, tips);
 }
 
 ToolMotion motion_of(const MillingCut& cut, const ProcessSettings& settings) {
@@ -60,6 +61,17 @@ void MillingProcess::take_blank() {
   // Cells of about a degree of the cutter are the fastest, measured; what is taken does not depend on them.
   constexpr double degrees = 60.0;
   const Vec2 pitch = Vec2::Constant(std::max(settings_.pitch, cut_.cutter.radius() / degrees));
+  if (settings_.blank && settings_.blank->left) {
+    const LeftWorkpiece& left = *settings_.blank->left;
+    first_ = left.turned * settings_.steps / left.steps_of_turn;
+    std::size_t of = 0;
+    for (const Slice& slice : slice_) {
+      while (of + 1 < left.slices.size() && left.slices[of + 1].low < slice.middle()) ++of;
+      layer_.push_back(left.layers[of]);
+    }
+    block_ = volume();
+    return;
+  }
   if (settings_.blank) {
     const Blank& blank = *settings_.blank;
     for (std::size_t k = 0; k < slice_.size(); ++k) {
@@ -117,6 +129,10 @@ void MillingProcess::begin_pass(std::size_t pass) {
                       pass + 1, 1e6 * there, 1e3 * at.x(), 1e3 * at.y(), 1e3 * edges().over_tip(k)),
           -1, "displacement");
   }
+}
+
+LeftWorkpiece MillingProcess::left() const {
+  return {slice_, layer_, first_ + static_cast<double>(step_), settings_.steps};
 }
 
 double MillingProcess::volume() const {

@@ -86,7 +86,7 @@ MillingProcess::PerLayer MillingProcess::shift_of(const Eigen::MatrixXd& state) 
 CutterPlace MillingProcess::place(std::int64_t step) const {
   const double at = static_cast<double>(step);
   const Vec2 axis = axis_at(at);
-  return {Vec3(axis.x(), axis.y(), 0.0), full_turn * (at / settings_.steps)};
+  return {Vec3(axis.x(), axis.y(), 0.0), full_turn * ((first_ + at) / settings_.steps)};
 }
 
 namespace {
@@ -282,7 +282,7 @@ ProcessStep MillingProcess::advance() {
     for (std::size_t i = 0; i < pressed_.size(); ++i) flanks_->note(i, way_of(i), pressed_[i]);
   step.unsettled = unsettled;
   step.time = time() + 0.5 * dt_;
-  step.angle = motion_.steady() ? settings_.spindle * step.time
+  step.angle = motion_.steady() ? settings_.spindle * step.time + full_turn * (first_ / settings_.steps)
                                 : place(step_).angle + 0.5 * full_turn / settings_.steps;
   Eigen::MatrixXd state = moved(force_);
   book(step, state, shift);

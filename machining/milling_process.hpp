@@ -83,6 +83,7 @@ public:
   double radius(std::size_t layer) const { return edges().radius(layer); }  ///< m, of the cutter
   double volume() const;                                                    ///< m³ of matter
   double block() const { return block_; } ///< m³ of matter before anything was taken
+  LeftWorkpiece left() const;             ///< what there is now, for another run
   const MillingLedger& ledger() const { return ledger_; }
   /// Whether teeth of this pass reach matter in a layer: the end of a cutter is thinner.
   bool cuts(std::size_t layer) const {
@@ -143,6 +144,7 @@ private:
   std::vector<Slice> slice_;        ///< [layer]
   std::vector<EdgeElements> edges_; ///< [pass] one without passes
   std::size_t pass_ = 0;            ///< of the last step
+  double first_ = 0.0;              ///< steps that runs before this one have turned the cutter by
   std::int64_t step_ = 0;
   std::vector<DexelLayer> layer_;
   std::vector<Bite> bite_; ///< [layer × tooth] of the last question

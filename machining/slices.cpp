@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 namespace cnem::machining {
 
@@ -26,14 +27,25 @@ std::vector<Slice> slices(double height, double most, std::vector<double> betwee
   if (std::all_of(between.begin(), between.end(),
                   [&](double z) { return std::abs(z / thickness - std::round(z / thickness)) < same; }))
     return all;
-  all.clear();
-  between.push_back(height);
+  const Slice whole{0.0, height};
+  return divided({&whole, 1}, most, std::move(between));
+}
+
+std::vector<Slice> divided(std::span<const Slice> slices, double most, std::vector<double> between) {
   std::sort(between.begin(), between.end());
-  double low = 0.0;
-  for (const double z : between) {
-    if (z - low <= same * most) continue;
-    add_slices(all, low, z, most);
-    low = z;
+  std::vector<Slice> all;
+  for (const Slice& slice : slices) {
+    const double rounding = same * std::min(most, slice.thickness), high = slice.low + slice.thickness;
+    double low = slice.low;
+    for (const double z : between) {
+      if (z - low <= rounding || high - z <= rounding) continue;
+      add_slices(all, low, z, most);
+      low = z;
+    }
+    if (low == slice.low && slice.thickness <= (1.0 + same) * most)
+      all.push_back(slice);
+    else
+      add_slices(all, low, high, most);
   }
   return all;
 }

@@ -176,25 +176,12 @@ std::string read_file(const fs::path& path) {
 
 namespace {
 
-constexpr std::array run_files{files::resolved_case,
-                               files::history,
-                               files::adaptation,
-                               files::fields,
-                               files::tool_fields,
-                               files::checkpoint,
-                               files::blanking,
-                               files::cutting_course,
-                               files::cutting,
-                               files::experiment,
-                               files::stability,
-                               files::stability_chart,
-                               files::stability_picture,
-                               files::stability_places,
-                               files::machined_surface,
-                               files::machined_surface_grid,
-                               files::spectra,
-                               files::status,
-                               files::report};
+constexpr std::array run_files{
+    files::resolved_case,     files::history,          files::adaptation,       files::fields,
+    files::tool_fields,       files::checkpoint,       files::blanking,         files::cutting_course,
+    files::cutting,           files::experiment,       files::stability,        files::stability_chart,
+    files::stability_picture, files::stability_places, files::machined_surface, files::machined_surface_grid,
+    files::workpiece,         files::spectra,          files::status,           files::report};
 constexpr std::array run_folders{files::fields_folder, files::pictures_folder, files::lines_folder,
                                  files::cutting_folder};
 

@@ -1,5 +1,6 @@
 #include "app/machining/machining_session.hpp"
 
+#include "app/machining/left_workpiece.hpp"
 #include "app/machining/milling_run.hpp"
 #include "app/machining/modes_run.hpp"
 #include "app/machining/removal_run.hpp"
@@ -298,6 +299,9 @@ Checked check_machining(const input::Case& input) {
     add("path", fmt::format("{}, {} turns of {} steps", si_format(milling.length, "m"),
                             results::number_format(turns), dexels.steps));
     if (!milling.passes.empty()) add("passes", tips_text(milling));
+    if (const auto left = workpiece_of_earlier_run(input))
+      add("workpiece", fmt::format("what {} has left, {} high in {} layers", milling.earlier_run,
+                                   si_format(left->height(), "m"), left->layers.size()));
     add("dexels", fmt::format("{} apart, {} layers", si_format(dexels.pitch, "m"), dexels.layers));
     checked.numbers.emplace_back("steps", turns * dexels.steps);
     return checked;

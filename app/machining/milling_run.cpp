@@ -1,5 +1,6 @@
 #include "app/machining/milling_run.hpp"
 
+#include "app/machining/left_workpiece.hpp"
 #include "app/machining/structure_modes.hpp"
 #include "core/error.hpp"
 #include "core/index.hpp"
@@ -45,7 +46,14 @@ const std::vector<std::string> history_columns{"time[s]",
                                                "energy.elastic[J]",
                                                "energy.residual[J]"};
 
-machining::ProcessSettings settings_of(const input::MachiningCase& milling) {
+machining::ProcessSettings settings_of(const input::Case& input) {
+  const input::MachiningCase& milling = *input.machining;
+  std::optional<machining::Blank> blank = milling.blank;
+  if (const auto left = workpiece_of_earlier_run(input))
+    blank = {.low = left->layers.front().low(),
+             .high = left->layers.front().high(),
+             .height = left->height(),
+             .left = left};
   return {.spindle = milling.speed,
           .axial_depth = milling.axial_depth,
           .length = milling.length,
@@ -55,7 +63,7 @@ machining::ProcessSettings settings_of(const input::MachiningCase& milling) {
           .layers = milling.dexels.layers,
           .steps = milling.dexels.steps,
           .passes = milling.passes,
-          .blank = milling.blank,
+          .blank = std::move(blank),
           .drive = milling.drive};
 }
 
@@ -130,9 +138,13 @@ void MillingRun::Course::archive(Archive& archive) {
 
 MillingRun::MillingRun(const input::Case& input, const RunOptions& options, RunObserver& observer,
                        bool goes_on)
+    : MillingRun(input, options, observer, goes_on, settings_of(input)) {}
+
+MillingRun::MillingRun(const input::Case& input, const RunOptions& options, RunObserver& observer,
+                       bool goes_on, const machining::ProcessSettings& settings)
     : SteppedRun(input, options, observer, goes_on, history_columns),
-      process_(input.machining->cut, modes_of_process(), settings_of(*input.machining),
-               flexible_part(input, settings_of(*input.machining), step_of(*input.machining))),
+      process_(input.machining->cut, modes_of_process(), settings,
+               flexible_part(input, settings, step_of(*input.machining))),
       counts_(steady_turns(share_of_forces, infinite)), heard_(steady_turns(share_of_vibration, most_turns)),
       vibration_(input.machining->cut.cutter, input.machining->dexels.steps) {
   if (process_.part()) first_frequency_ = process_.part()->frequency();
@@ -270,6 +282,10 @@ void MillingRun::judge() {
                                 "radial depth: vibrations are not small beside the cut",
                                 si_format(steady.displacement, "m")))
              .what());
+  if (!milling.passes.empty()) {
+    status_.add_metric("milling.workpiece.before[m^3]", process_.block());
+    status_.add_metric("milling.workpiece.after[m^3]", process_.volume());
+  }
   passes_.tell(process_.motion(), status_);
   constexpr double rounding = 1e-6;
   if (const auto [pass, depth] = passes_.deepest();
@@ -314,6 +330,9 @@ void MillingRun::judge() {
 }
 
 void MillingRun::write_files() {
+  if (process_.motion().last_path())
+    results::write_atomically(options_.output / results::files::workpiece,
+                              left_workpiece_file(process_.left(), input_.name));
   results::write_atomically(options_.output / results::files::machined_surface, surface_->csv());
   results::write_atomically(options_.output / results::files::machined_surface_grid, surface_->vtk());
   if (process_.motion().steady())

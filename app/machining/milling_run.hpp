@@ -16,6 +16,8 @@ public:
              bool goes_on = false);
 
 private:
+  MillingRun(const input::Case& input, const RunOptions& options, RunObserver& observer, bool goes_on,
+             const machining::ProcessSettings& settings);
   /// The largest and the mean of a part of the run.
   struct Course {
     Vec3 force = Vec3::Zero();     ///< N, largest of each component

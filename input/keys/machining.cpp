@@ -160,6 +160,13 @@ void add_passes(Keys& k) {
       .computed("`milling.axial_depth` over the highest `tip` of a pass");
   k.add(blank + "from", vector, "A corner of a block.").unit(d::length).example("\"0 0 mm\"");
   k.add(blank + "to", vector, "The opposite corner.").unit(d::length).example("\"40 20 mm\"");
+  k.add(blank + "run", text,
+        "In place of a block: the folder of an earlier run of `milling.passes`, seen from the folder of the "
+        "case. The workpiece is what it has left, in the same axes; the cutter goes on turning from where it "
+        "was.")
+      .example("\"../roughing/results\"");
+  k.add(blank + "content", text,
+        "Checksum of what that run has left, in resolved cases; another one is refused.");
   k.add(blank + "stl", table, "A closed surface from an STL file, in place of a block.");
   add_stl(k, blank + "stl", "\"blank.stl\"").of_space();
 }
