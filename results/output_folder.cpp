@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/index.hpp"
+#include "input/left_workpiece.hpp"
 #include "results/checkpoint_folder.hpp"
 #include "results/status.hpp"
 
@@ -181,7 +182,7 @@ constexpr std::array run_files{
     files::tool_fields,       files::checkpoint,       files::blanking,         files::cutting_course,
     files::cutting,           files::experiment,       files::stability,        files::stability_chart,
     files::stability_picture, files::stability_places, files::machined_surface, files::machined_surface_grid,
-    files::workpiece,         files::spectra,          files::status,           files::report};
+    input::left_workpiece,    files::spectra,          files::status,           files::report};
 constexpr std::array run_folders{files::fields_folder, files::pictures_folder, files::lines_folder,
                                  files::cutting_folder};
 

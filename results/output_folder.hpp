@@ -1,7 +1,5 @@
 #pragma once
 // The folder a run writes to, and how its files are written: never half.
-#include "input/left_workpiece.hpp"
-
 #include <filesystem>
 #include <span>
 #include <string>
@@ -33,8 +31,7 @@ inline constexpr const char* modes = "modes.csv";                       ///< of 
 inline constexpr const char* mode_shapes = "modes.vtk";                 ///< of a part
 inline constexpr const char* machined_surface = "surface.csv";          ///< of a milling cut
 inline constexpr const char* machined_surface_grid = "surface.vtk";     ///< the same in space
-inline constexpr const char* workpiece = input::left_workpiece; ///< as passes of a cutter have left it
-inline constexpr const char* spectra = "spectra.csv";           ///< of forces and vibrations of a milling cut
+inline constexpr const char* spectra = "spectra.csv"; ///< of forces and vibrations of a milling cut
 inline constexpr const char* status = "status.json";
 inline constexpr const char* report = "report.html";
 } // namespace files

@@ -2,7 +2,8 @@
 
 #include "core/error.hpp"
 #include "input/case_machining.hpp"
-#include "input/schema/toml_text.hpp"
+#include "input/left_workpiece.hpp"
+#include "input/schema/document.hpp"
 #include "results/checkpoint.hpp"
 #include "results/output_folder.hpp"
 #include "results/si_format.hpp"
@@ -32,7 +33,7 @@ std::string what_is_there(const fs::path& folder) {
   const results::RunStatus status = results::read_status(folder);
   if (status.exit != 0)
     return fmt::format("the run there did not finish (exit code {}: {})", status.exit, status.reason);
-  return fmt::format("{} is missing there", results::files::workpiece);
+  return fmt::format("{} is missing there", input::left_workpiece);
 }
 
 } // namespace
@@ -49,7 +50,7 @@ std::string left_workpiece_file(const machining::LeftWorkpiece& left, const std:
 std::shared_ptr<const machining::LeftWorkpiece> workpiece_of_earlier_run(const input::Case& input) {
   const input::MachiningCase& milling = *input.machining;
   if (milling.earlier_run.empty()) return nullptr;
-  const fs::path folder = milling.earlier_run, file = folder / results::files::workpiece;
+  const fs::path folder = milling.earlier_run, file = folder / input::left_workpiece;
   const char* key = "milling.workpiece.run";
   if (!fs::exists(file))
     throw input.error(key, fmt::format("found '{}': {}, expected the folder of a finished run of "
@@ -65,7 +66,7 @@ std::shared_ptr<const machining::LeftWorkpiece> workpiece_of_earlier_run(const i
   }
   for (std::size_t k = 0; k < milling.passes.size(); ++k)
     if (const double tip = milling.passes[k].tip(); tip >= left->height())
-      throw input.error(fmt::format("milling.passes[{}].tip", k + 1),
+      throw input.error(fmt::format("milling.passes[{}].tip", k),
                         fmt::format("found {}, expected less than {}, the height of the workpiece that '{}' "
                                     "has left",
                                     results::si_format(tip, "m"), results::si_format(left->height(), "m"),

@@ -26,7 +26,8 @@ MachinedSurface::MachinedSurface(const MillingProcess& process, const input::Mac
                to = end - turn;
   for (std::size_t k = 0; k < process.layers().size(); ++k)
     if (process.cuts(k) && (!path || process.layers()[k].area() > 0.0))
-      layer_.push_back(k); // or over the stock
+      layer_.push_back(k);    // or over the stock
+  if (layer_.empty()) return; // nothing is left beside the way
   left_.resize(layer_.size());
   std::vector<double> here(layer_.size());
   for (double at = std::max(from, 0.0); at <= to; at += pitch) {

@@ -5,6 +5,7 @@
 #include "core/error.hpp"
 #include "core/index.hpp"
 #include "input/case_machining.hpp"
+#include "input/left_workpiece.hpp"
 #include "report/picture_album.hpp"
 #include "report/surface_map.hpp"
 #include "results/file_queue.hpp"
@@ -331,7 +332,7 @@ void MillingRun::judge() {
 
 void MillingRun::write_files() {
   if (process_.motion().last_path())
-    results::write_atomically(options_.output / results::files::workpiece,
+    results::write_atomically(options_.output / input::left_workpiece,
                               left_workpiece_file(process_.left(), input_.name));
   results::write_atomically(options_.output / results::files::machined_surface, surface_->csv());
   results::write_atomically(options_.output / results::files::machined_surface_grid, surface_->vtk());

@@ -9,7 +9,7 @@
 namespace cnem::app {
 
 double PassRecords::depth_of(const machining::MillingProcess& process, const std::vector<double>& before) {
-  constexpr double share = 0.01; // springs back from where it was pushed off: no depth of cut
+  constexpr double share = 0.1; // thinner layers are what sprang back: no depth of cut
   std::vector<double> taken;
   for (std::size_t k = 0; k < before.size(); ++k) taken.push_back(before[k] - process.layers()[k].area());
   const double most = *std::max_element(taken.begin(), taken.end());

@@ -4,6 +4,7 @@
 #include "app/machining/left_workpiece.hpp"
 #include "core/error.hpp"
 #include "input/case_machining.hpp"
+#include "input/left_workpiece.hpp"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -90,8 +91,6 @@ private:
   TemporaryFolder folder_{"handover"};
 };
 
-} // namespace
-
 TEST_F(MillingHandover, TwoRunsAreOneToTheBit) {
   const std::string first = pass("2", "4.5"), second = pass("0", "5");
   ASSERT_EQ(run(written("both", block, first + second), "both"), Exit::done);
@@ -148,7 +147,7 @@ TEST_F(MillingHandover, RefusesWhatIsNoFinishedRunOfPasses) {
   fs::remove(at("stuck") / results::files::status);
   expect(refusal("stuck"), "has not ended");
 
-  std::ofstream(at("empty") / results::files::workpiece) << "no workpiece";
+  std::ofstream(at("empty") / input::left_workpiece) << "no workpiece";
   expect(refusal("empty"), "cannot take");
 }
 
@@ -168,4 +167,5 @@ TEST_F(MillingHandover, ARunThatWasDoneAgainIsNoLongerWhatItWas) {
   }
 }
 
+} // namespace
 } // namespace cnem::testing

@@ -137,7 +137,7 @@ TEST(PassDepths, TheSecondStepIsALonePassOfItsDepth) {
     const std::vector<Course> of = courses(two);
     ASSERT_EQ(of[0].force.size() % 180, 0U) << "whole turns";
     expect_same_forces(courses(lone)[0], of[1]);
-    EXPECT_LT(two.ledger().share(), 1e-6);
+    EXPECT_LT(two.ledger().share(), 1e-4);
   }
 }
 
@@ -149,6 +149,7 @@ TEST(PassDepths, ACutIsTheSameAtAnyHeight) {
   const double r = cut.cutter.radius();
   for (const double corner : {0.0, 1e-3, r}) {
     cut.cutter.corner = corner;
+    const double y = corner < r ? -4.9e-3 : -3.5e-3; // a ball is 4.5 mm wide there
     std::array<Course, 2> course;
     for (const double tip : {0.0, 1.5e-3}) {
       std::vector<Mode> modes = soft_tool();
@@ -158,7 +159,7 @@ TEST(PassDepths, ACutIsTheSameAtAnyHeight) {
         mode.height = {{up_by, 2e-3 + up_by}, 2};
         mode.shape_over_height = {{0.5, 1.0}, 2};
       }
-      MillingProcess process(cut, modes, milled(2e-3 + tip, 2e-3, {past(-4.9e-3, tip)}));
+      MillingProcess process(cut, modes, milled(2e-3 + tip, 2e-3, {past(y, tip)}));
       const double below = 3e-3 * 8e-3 * tip;
       course[tip > 0.0] = courses(process)[0];
       double kept = 0.0;
