@@ -13,6 +13,7 @@ EdgeElements::EdgeElements(const MillingCut& cut, std::span<const Slice> slices,
   for (const Slice& slice : slices) {
     if (slice.middle() < tip) {
       ++lowest_;
+      ++end_;
       layer_.emplace_back();
       continue;
     }
@@ -20,13 +21,25 @@ EdgeElements::EdgeElements(const MillingCut& cut, std::span<const Slice> slices,
     if (std::abs(low) < rounding * slice.thickness) low = 0.0;
     const double high = low + slice.thickness;
     assert(low >= 0.0);
+    if (high > cut.cutter.top() + rounding * slice.thickness) {
+      layer_.emplace_back();
+      continue;
+    }
+    ++end_;
     layer_.push_back({.low = low,
                       .thickness = slice.thickness,
                       .radius = cut.cutter.mean_radius(low, high),
-                      .lag = cut.cutter.lag(0.5 * (low + high)),
+                      .lag = cut.cutter.mean_lag(low, high),
                       .width = cut.cutter.profile(low, high),
                       .lead = cut.cutter.lead(low, high)});
   }
+  if (const CuttingEdge* edge = cut.cutter.edge.get())
+    for (const Layer& layer : layer_) {
+      const CuttingEdge::Angles angles = edge->angles(layer.low, layer.low + layer.thickness);
+      law_.push_back(cut.law);
+      law_.back().incline(angles.inclination);
+      law_.back().take_rake(angles.rake);
+    }
   for (std::size_t j = 0; j < cut.cutter.teeth(); ++j) teeth_.push_back(cut.cutter.behind(j));
 }
 
@@ -34,8 +47,7 @@ Vec2 EdgeElements::arm(std::size_t layer, std::size_t tooth, const CutterPlace& 
   const Cutter& cutter = cut_.cutter;
   const Layer& at = layer_[layer];
   const double low = at.low - place.axis.z();
-  const double radius =
-      chord_ * (cutter.corner > 0.0 ? cutter.mean_radius(low, low + at.thickness) : at.radius);
+  const double radius = chord_ * (cutter.rounded() ? cutter.mean_radius(low, low + at.thickness) : at.radius);
   return radius * outward(phi(layer, tooth, place.angle)).head<2>();
 }
 
@@ -75,7 +87,8 @@ void EdgeElements::add(EdgeLoad& load, std::size_t layer, std::size_t tooth, con
   const double chip = inward * at.thickness / at.width;
   const double middle = 0.5 * (bite.begin + bite.end);
   const double turned = from.angle + middle * (to.angle - from.angle);
-  const Vec3 local = at.width * share * cut_.law.at({.thickness = chip, .speed = path / duration}).force;
+  const CuttingLaw& law = law_.empty() ? cut_.law : law_[layer];
+  const Vec3 local = at.width * share * law.at({.thickness = chip, .speed = path / duration}).force;
   load.work -= bear(load, layer, tooth, turned, local).dot(way);
   load.power += local[0] * path * of_edge / duration;
   load.removed += bite.area * at.thickness;

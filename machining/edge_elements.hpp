@@ -35,8 +35,8 @@ public:
 
   std::size_t layers() const { return layer_.size(); }
   std::size_t teeth() const { return teeth_.size(); }
-  /// Whether a layer lies over the tip of the cutter: there are edges in it.
-  bool reaches(std::size_t layer) const { return layer >= lowest_; }
+  /// Whether a layer lies over the tip of the cutter and below the top of its edges: there are some in it.
+  bool reaches(std::size_t layer) const { return layer >= lowest_ && layer < end_; }
   /// m over the tip, the middle of a layer.
   double over_tip(std::size_t layer) const { return layer_[layer].low + 0.5 * layer_[layer].thickness; }
   /// m, mean of a layer that it reaches, of the cutter round its own axis.
@@ -74,10 +74,11 @@ private:
   Vec3 bear(EdgeLoad& load, std::size_t layer, std::size_t tooth, double turned, const Vec3& local) const;
 
   MillingCut cut_;
-  double chord_ = 1.0;     ///< of the radius
-  std::size_t lowest_ = 0; ///< layer over the tip
+  double chord_ = 1.0;               ///< of the radius
+  std::size_t lowest_ = 0, end_ = 0; ///< layers with edges
   std::vector<Layer> layer_;
-  std::vector<double> teeth_; ///< rad behind tooth 0
+  std::vector<CuttingLaw> law_; ///< [layer] of edges whose angles change; none: that of the cut
+  std::vector<double> teeth_;   ///< rad behind tooth 0
 };
 
 } // namespace cnem::machining

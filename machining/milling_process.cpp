@@ -120,7 +120,7 @@ Sweep MillingProcess::in_material(std::size_t layer, std::size_t tooth,
   if (!part_->begin().may_meet(low, high) && !part_->end().may_meet(low, high)) return sweep;
   const auto back = [&](const HexahedralMap& map, const CutterPlace& at, Rake rake) -> Rake {
     Vec3 edge = map.material(in_space(rake.edge));
-    if (cut_.cutter.corner > 0.0) { // a layer that is higher is cut farther up the profile
+    if (cut_.cutter.rounded()) { // a layer that is higher is cut farther up the profile
       CutterPlace beside = at;
       beside.axis.z() += edge.z() - z;
       rake = edges().rake(layer, tooth, beside, depth);

@@ -38,10 +38,8 @@ std::string what_is_there(const fs::path& folder) {
 
 } // namespace
 
-std::string left_workpiece_file(const machining::LeftWorkpiece& left, const std::string& case_name) {
+std::string left_workpiece_file(const machining::LeftWorkpiece& left) {
   results::CheckpointWriter writer;
-  std::string name = case_name;
-  writer.text("workpiece/case", name);
   machining::LeftWorkpiece copy = left;
   copy.archive(writer);
   return writer.content();

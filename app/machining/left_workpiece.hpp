@@ -9,7 +9,7 @@
 namespace cnem::app {
 
 /// The content of the file.
-std::string left_workpiece_file(const machining::LeftWorkpiece& left, const std::string& case_name);
+std::string left_workpiece_file(const machining::LeftWorkpiece& left);
 
 /// What the earlier run that the case names has left; none where it names none. Throws InputError with the
 /// reason: there is no such run, it is no milling run of passes, it has not finished, its file is damaged or

@@ -332,8 +332,7 @@ void MillingRun::judge() {
 
 void MillingRun::write_files() {
   if (process_.motion().last_path())
-    results::write_atomically(options_.output / input::left_workpiece,
-                              left_workpiece_file(process_.left(), input_.name));
+    results::write_atomically(options_.output / input::left_workpiece, left_workpiece_file(process_.left()));
   results::write_atomically(options_.output / results::files::machined_surface, surface_->csv());
   results::write_atomically(options_.output / results::files::machined_surface_grid, surface_->vtk());
   if (process_.motion().steady())

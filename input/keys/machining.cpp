@@ -64,6 +64,13 @@ void add_cutter(Keys& k) {
       .unit(d::length)
       .in(positive)
       .example("\"2 mm\"");
+  k.add(
+      "cutter.rake_face", table,
+      "In the time domain, in place of `end`, `corner`, `helix` and `rake`: the rake face of a tooth from an "
+      "STL file, in axes of the cutter (z up along its axis, 0 at the tip; the tooth as it stands at first, "
+      "seen from +z clockwise from +y). The other teeth follow at their `pitch`. The edge is the outer side "
+      "of the face; its radius, length and angles are those of the triangles.");
+  add_stl(k, "cutter.rake_face", "\"rake.stl\"").of_space();
   k.add("cutter.run_out", quantity, "Distance from the axis of the spindle to that of the cutter.")
       .unit(d::length)
       .in(not_negative)
@@ -136,10 +143,10 @@ void add_passes(Keys& k) {
       "its right in down-milling. `milling.start` is `outside` then, or `hole`. The surface is told of the "
       "last one.");
   k.add(pass + "start", vector, "Of the axis.").unit(d::length).required().example("\"-8 0 mm\"");
-  k.add(pass + "tip", quantity,
-        "Height of the tip of the cutter over the bottom of the workpiece, the same all along the pass: the "
-        "cutter "
-        "is lifted between passes. Ramps and plunges, on which its end cuts, are not known.")
+  k.add(
+       pass + "tip", quantity,
+       "Height of the tip of the cutter over the bottom of the workpiece, the same all along the pass: it is "
+       "lifted between passes. Ramps and plunges, on which its end cuts, are not known.")
       .unit(d::length)
       .in(not_negative)
       .fallback("\"0 m\"");
@@ -153,7 +160,8 @@ void add_passes(Keys& k) {
         "Of `milling.passes`: what there is before the first. Heights count from 0, where tips are "
         "that are given no other place.");
   k.add(blank + "height", quantity,
-        "Of a block; of other workpieces as far as they are looked at. Edges are as long as it takes.")
+        "Of a block; of other workpieces as far as they are looked at. Edges, but those of a "
+        "`cutter.rake_face`, are as long as it takes.")
       .unit(d::length)
       .in(positive)
       .example("\"6 mm\"")
@@ -223,8 +231,7 @@ void add_milling(Keys& k) {
       .example("\"10 um\"")
       .computed("a tenth of `milling.feed`");
   k.add("dexels.layers", integer,
-        "Along the axis of the cutter, in `milling.axial_depth`; higher workpieces have as many more, and "
-        "each "
+        "Along the axis of the cutter, in `milling.axial_depth`; higher workpieces have as many more, each "
         "`tip` of a pass lies between two.")
       .in({.low = 1, .high = 2000})
       .example("20")

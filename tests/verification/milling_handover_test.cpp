@@ -73,10 +73,10 @@ protected:
   std::string bytes(const std::string& name, const char* file) const {
     return results::read_file(at(name) / file);
   }
-  /// What a run has left, as the next one takes it, without the name of its case.
+  /// What a run has left, as the next one takes it.
   std::string left(const std::string& name) const {
     const input::Case next = written("next", fmt::format("{{ run = \"{}\" }}", name), pass("0", "9"));
-    return app::left_workpiece_file(*app::workpiece_of_earlier_run(next), "");
+    return app::left_workpiece_file(*app::workpiece_of_earlier_run(next));
   }
   /// The message with which the next run refuses what is in a folder.
   std::string refusal(const std::string& folder) const {
