@@ -17,58 +17,6 @@
 namespace cnem::input {
 namespace {
 
-enum class End { flat, bull, ball };
-
-void read_end(machining::Cutter& cutter, const Setting& table, Diagnostics& diagnostics) {
-  const End end = table.choice<End>("end");
-  const Setting* corner = table.find("corner");
-  if (end == End::ball) cutter.corner = cutter.radius();
-  if (corner && end != End::bull)
-    diagnostics.add(Mistake::conflict, corner->where, corner->path,
-                    "found a corner of a flat or ball end, expected cutter.end = \"bull\"");
-  else if (!corner && end == End::bull)
-    diagnostics.add(Mistake::missing_key, table.where, table.path + ".corner",
-                    "missing, expected the corner radius of the bull end, e.g. \"2 mm\"");
-  else if (corner) {
-    cutter.corner = std::get<double>(corner->value);
-    if (cutter.corner > cutter.radius())
-      diagnostics.add(Mistake::range, corner->where, corner->path,
-                      fmt::format("found {:g} m, expected at most the radius of the cutter, {:g} m",
-                                  cutter.corner, cutter.radius()));
-  }
-}
-
-machining::Cutter read_cutter(const Setting& table, Diagnostics& diagnostics) {
-  machining::Cutter cutter;
-  cutter.diameter = table.get<double>("diameter");
-  const auto teeth = static_cast<std::size_t>(table.get<std::int64_t>("teeth"));
-  cutter.pitch = machining::equal_pitch(teeth);
-  cutter.helix = table.get<double>("helix");
-  cutter.run_out = table.get<double>("run_out");
-  cutter.run_out_angle = table.get<double>("run_out_angle");
-  if (const Setting* run_out = table.find("run_out"); cutter.run_out >= cutter.radius())
-    diagnostics.add(Mistake::range, run_out->where, run_out->path,
-                    fmt::format("found {:g} m, expected less than the radius of the cutter, {:g} m",
-                                cutter.run_out, cutter.radius()));
-  read_end(cutter, table, diagnostics);
-  const Setting* pitch = table.find("pitch");
-  if (!pitch) return cutter;
-  cutter.pitch = std::get<std::vector<double>>(pitch->value);
-  const double sum = std::accumulate(cutter.pitch.begin(), cutter.pitch.end(), 0.0);
-  constexpr double close = 1e-6;
-  if (cutter.pitch.size() != teeth)
-    diagnostics.add(
-        Mistake::type, pitch->where, pitch->path,
-        fmt::format("found {} angles for {} teeth, expected one a tooth", cutter.pitch.size(), teeth));
-  else if (std::abs(sum - machining::full_turn) > close)
-    diagnostics.add(Mistake::range, pitch->where, pitch->path,
-                    fmt::format("found angles of {:.8g} deg together, expected a whole turn, 360 deg",
-                                sum * 360.0 / machining::full_turn));
-  for (double& angle : cutter.pitch)
-    angle *= machining::full_turn / sum; // "120 120 120 deg" is a turn but for rounding
-  return cutter;
-}
-
 /// Two numbers of the table `range`; everywhere without them.
 Range read_range(const Setting& range, const char* name, Diagnostics& diagnostics) {
   const Setting* given = range.find(name);
@@ -88,7 +36,9 @@ void read_cutting_law(const Setting& root, MachiningCase& read, Diagnostics& dia
   if (const Setting* range = forces.find("range"))
     read.law_range = {read_range(*range, "thickness", diagnostics), read_range(*range, "speed", diagnostics),
                       read_range(*range, "rake", diagnostics)};
+  const machining::CuttingEdge* edge = read.cut.cutter.edge.get();
   read.rake = root.maybe<double>("cutter.rake");
+  if (edge) read.rake = edge->angles(0.0, read.axial_depth).rake;
   if (const Setting* rakes = forces.find("rakes");
       rakes && read.cut.law.known().several_rakes() && !read.rake)
     diagnostics.add(
@@ -97,6 +47,7 @@ void read_cutting_law(const Setting& root, MachiningCase& read, Diagnostics& dia
                     "({})",
                     rakes->where.text()));
   read.law_range = common(read.law_range, read.cut.law.known());
+  if (edge) return; // each of its elements has its own angles
   read.cut.law.incline(read.cut.cutter.helix);
   read.cut.law.take_rake(read.rake.value_or(0.0));
 }
@@ -168,6 +119,11 @@ void check_modes(const Setting& modes, const MachiningCase& read, Diagnostics& d
 void check_time_domain(const Setting& root, const MachiningCase& read, Analysis::Type type,
                        Diagnostics& diagnostics) {
   const machining::Cutter& cutter = read.cut.cutter;
+  if (const Setting* face = root.find("cutter.rake_face"); face && type == Analysis::Type::stability)
+    diagnostics.add(
+        Mistake::conflict, face->where, face->path,
+        "found a rake face, expected cutter.helix and an end that is flat: lobes are those of edges "
+        "at one radius; analysis.type = \"milling\" takes any");
   if (const Setting& end = *root.find("cutter.end"); cutter.corner > 0.0 && type == Analysis::Type::stability)
     diagnostics.add(Mistake::conflict, end.where, end.path,
                     "found a rounded end, expected a flat one: lobes are those of edges at one radius, whose "
@@ -238,12 +194,12 @@ void read_machining(Setting& root, Case& result, Diagnostics& diagnostics) {
   const auto made = std::make_shared<MachiningCase>();
   MachiningCase& read = *made;
   result.machining = made;
-  read.cut.cutter = read_cutter(*root.find("cutter"), diagnostics);
+  read.axial_depth = root.get<double>("milling.axial_depth");
+  read.cut.cutter = read_cutter(*root.find("cutter"), result.path, read.axial_depth, diagnostics);
   const double diameter = read.cut.cutter.diameter;
   root.set_default("milling.radial_depth", diameter);
   const Setting& milling = *root.find("milling");
   read_drive(milling, read, result.analysis.type, diagnostics);
-  read.axial_depth = milling.get<double>("axial_depth");
   read.cut.engagement = {milling.choice<machining::Engagement::Side>("side"),
                          milling.get<double>("radial_depth")};
   if (const Setting& depth = *milling.find("radial_depth"); read.cut.engagement.radial_depth > diameter)
@@ -280,7 +236,8 @@ void read_machining(Setting& root, Case& result, Diagnostics& diagnostics) {
   constexpr double turns = 12.0, share = 0.1, lag = std::numbers::pi / 180.0, corner = 0.05;
   if (!milling.find("passes")) root.set_default("milling.length", turns * turn);
   root.set_default("dexels.pitch", share * read.cut.feed);
-  const double rounded = std::min(read.cut.cutter.corner, read.axial_depth);
+  const double rounded = // m, over which the radius of edges changes
+      read.cut.cutter.edge ? read.axial_depth : std::min(read.cut.cutter.corner, read.axial_depth);
   const double layers = std::ceil(std::max(std::abs(read.cut.cutter.lag(read.axial_depth)) / lag,
                                            rounded > 0.0 ? read.axial_depth / (corner * rounded) : 0.0) -
                                   1e-9);

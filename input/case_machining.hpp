@@ -43,7 +43,8 @@ struct MachiningCase {
   double axial_depth = 0.0;                    ///< m
   double length = 0.0; ///< m, of the path of the axis in the time domain, all passes together
   std::vector<machining::ToolPath> passes; ///< none: straight along x
-  std::optional<machining::Blank> blank;   ///< of passes
+  std::optional<machining::Blank> blank;   ///< of passes; none where an earlier run has left it
+  std::string earlier_run;                 ///< folder of the run that has left the workpiece, from the root
   double dwell = 0.0;                      ///< turns at its end without feed
   machining::ProcessSettings::Start start = machining::ProcessSettings::Start::inside; ///< where it begins
   DexelSettings dexels;

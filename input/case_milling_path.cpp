@@ -1,6 +1,7 @@
 // Reads how a cutter goes through which workpiece: passes, a blank, speed and feed over time.
 #include "input/case_machining.hpp"
 #include "input/case_parts.hpp"
+#include "input/left_workpiece.hpp"
 #include "input/outline.hpp"
 #include "input/triangle_file.hpp"
 
@@ -31,22 +32,43 @@ double largest(const Setting& milling, const char* name, Diagnostics& diagnostic
 std::vector<machining::ToolPath> read_passes(const Setting& milling, Diagnostics& diagnostics) {
   std::vector<machining::ToolPath> passes;
   for (const Setting& pass : milling.entries("passes")) try {
-      passes.emplace_back(pieces_of_path(pass));
+      passes.emplace_back(pieces_of_path(pass), pass.get<double>("tip"));
     } catch (const OutlineError& error) {
       diagnostics.add(Mistake::range, pass.where, pass.path + "." + error.key, error.what());
     }
   return passes;
 }
 
-std::optional<machining::Blank> read_blank(Setting& table, double axial_depth, const std::string& case_path,
+/// The folder of the table `workpiece`, from the root; the checksum of what the run there has left stands in
+/// the table then. Where nothing is left there, the run says why.
+std::string read_earlier_run(Setting& table, const std::string& case_path, Diagnostics& diagnostics) {
+  Setting& run = *table.find("run");
+  for (const char* other : {"from", "to", "height", "stl"})
+    if (const Setting* given = table.find(other))
+      diagnostics.add(
+          Mistake::conflict, given->where, given->path,
+          fmt::format("found beside {}, expected one workpiece: an earlier run has left all of it",
+                      run.path));
+  std::string folder = from_case(std::get<std::string>(run.value), case_path);
+  while (folder.size() > 1 && folder.ends_with('/')) folder.pop_back();
+  run.value = folder;
+  if (const std::optional<std::string> bytes = bytes_of_file(folder + '/' + left_workpiece))
+    take_checksum(table, "run", *bytes, diagnostics);
+  return folder;
+}
+
+std::optional<machining::Blank> read_blank(Setting& table, const std::string& case_path,
                                            Diagnostics& diagnostics) {
   machining::Blank blank;
+  blank.height = table.get<double>("height");
   const Setting *from = table.find("from"), *to = table.find("to");
   Setting* stl = table.find("stl");
   if (stl ? from || to : !from || !to) {
-    diagnostics.add(stl ? Mistake::conflict : Mistake::missing_key, table.where, table.path,
-                    stl ? "found corners and triangles, expected either `from` and `to` or `stl`"
-                        : "missing, expected two opposite corners, `from` and `to`, or `stl`");
+    diagnostics.add(
+        stl ? Mistake::conflict : Mistake::missing_key, table.where, table.path,
+        stl ? "found corners and triangles, expected either `from` and `to` or `stl`"
+            : "missing, expected two opposite corners, `from` and `to`, or `stl`, or the folder of "
+              "an earlier `run`");
     return std::nullopt;
   }
   if (!stl) {
@@ -68,15 +90,24 @@ std::optional<machining::Blank> read_blank(Setting& table, double axial_depth, c
     return std::nullopt;
   }
   const Box<3> box = box_of<3>(blank.surface.points);
-  if (box.high.z() <= 0.0 || box.low.z() >= axial_depth)
-    diagnostics.add(
-        Mistake::range, stl->where, stl->path + ".shift",
-        fmt::format("puts the workpiece from {:g} to {:g} m, expected part of it between 0, the tip "
-                    "of the cutter, and milling.axial_depth = {:g} m",
-                    box.low.z(), box.high.z(), axial_depth));
+  if (box.high.z() <= 0.0 || box.low.z() >= blank.height)
+    diagnostics.add(Mistake::range, stl->where, stl->path + ".shift",
+                    fmt::format("puts the workpiece from {:g} to {:g} m, expected part of it between 0 and "
+                                "{}.height = {:g} m",
+                                box.low.z(), box.high.z(), table.path, blank.height));
   blank.low = box.low.head<2>();
   blank.high = box.high.head<2>();
   return blank;
+}
+
+/// Tips lie within the workpiece.
+void check_tips(const Setting& milling, double height, Diagnostics& diagnostics) {
+  for (const Setting& pass : milling.entries("passes"))
+    if (const Setting& tip = *pass.find("tip"); std::get<double>(tip.value) >= height)
+      diagnostics.add(Mistake::range, tip.where, tip.path,
+                      fmt::format("found {:g} m, expected less than milling.workpiece.height = {:g} m: the "
+                                  "cutter is over the workpiece",
+                                  std::get<double>(tip.value), height));
 }
 
 } // namespace
@@ -121,17 +152,26 @@ void read_path(Setting& root, MachiningCase& read, const std::string& case_path,
     read.start = machining::ProcessSettings::Start::outside;
     start->value = std::string("outside");
   }
-  read.blank = read_blank(*workpiece, read.axial_depth, case_path, diagnostics);
   read.passes = read_passes(milling, diagnostics);
   if (milling.entries("passes").empty())
     diagnostics.add(Mistake::range, passes->where, passes->path, "found no pass, expected at least one");
-  if (!read.blank || read.passes.empty()) return;
   read.length = 0.0;
   for (const machining::ToolPath& pass : read.passes) read.length += pass.length();
+  if (workpiece->find("run")) {
+    read.earlier_run = read_earlier_run(*workpiece, case_path, diagnostics);
+    return;
+  }
+  double highest = 0.0;
+  for (const machining::ToolPath& pass : read.passes) highest = std::max(highest, pass.tip());
+  workpiece->set_default("height", highest + read.axial_depth);
+  read.blank = read_blank(*workpiece, case_path, diagnostics);
+  if (!read.blank || read.passes.empty()) return;
+  check_tips(milling, read.blank->height, diagnostics);
   constexpr double most_cells = 2e8, degrees = 60.0;
   const Vec2 size = read.blank->high - read.blank->low;
   const double cell = std::max(read.dexels.pitch, read.cut.cutter.radius() / degrees);
-  if (const double cells = size.x() / cell * (size.y() / cell) * read.dexels.layers; cells > most_cells)
+  const double layers = std::max(1.0, read.blank->height / read.axial_depth) * read.dexels.layers;
+  if (const double cells = size.x() / cell * (size.y() / cell) * layers; cells > most_cells)
     diagnostics.add(
         Mistake::range, workpiece->where, workpiece->path,
         fmt::format("holds {:.3g} cells of dexels, expected at most {:g}: a smaller workpiece, fewer "

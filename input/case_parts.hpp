@@ -8,6 +8,10 @@
 #include <string>
 #include <vector>
 
+namespace cnem::machining {
+struct Cutter;
+}
+
 namespace cnem::input {
 
 /// Domain and tools: outlines, holes and cracks, and whether they fit into one another.
@@ -25,6 +29,9 @@ std::optional<Curve> read_outline(const Setting& table, const OutlineNames& name
 /// Why a point (m) is not in the block; "" when it is.
 std::string outside_reason(const Block& block, const Vec3& x);
 
+/// The table `cutter`. axial_depth: m, as far as a rake face has to reach.
+machining::Cutter read_cutter(Setting& table, const std::string& case_path, double axial_depth,
+                              Diagnostics& diagnostics);
 /// Cutter, cut, law, modes and what is asked of a milling analysis.
 void read_machining(Setting& root, Case& result, Diagnostics& diagnostics);
 struct MachiningCase;

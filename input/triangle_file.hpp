@@ -13,4 +13,13 @@ namespace cnem::input {
 /// elsewhere, and `content` the checksum. case_path: of the file of the case.
 std::optional<FacetSoup> read_triangles(Setting& stl, const std::string& case_path, Diagnostics& diagnostics);
 
+// What tables that name files share.
+/// A path seen from the folder of the case, from the root.
+std::string from_case(const std::string& given, const std::string& case_path);
+/// None where it cannot be read.
+std::optional<std::string> bytes_of_file(const std::string& path);
+/// Makes `content` of the table the checksum of bytes; a mistake of its member `named` where the table, of a
+/// resolved case, has another one. False then. Moves members of the table.
+bool take_checksum(Setting& table, const char* named, const std::string& bytes, Diagnostics& diagnostics);
+
 } // namespace cnem::input

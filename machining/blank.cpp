@@ -1,10 +1,38 @@
 #include "machining/blank.hpp"
 
+#include "core/error.hpp"
 #include "core/geometry/plane_section.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace cnem::machining {
+
+void LeftWorkpiece::archive(Archive& archive) {
+  std::vector<double> low, thickness;
+  for (const Slice& slice : slices) {
+    low.push_back(slice.low);
+    thickness.push_back(slice.thickness);
+  }
+  archive.list("workpiece/low", "m", low);
+  archive.list("workpiece/thickness", "m", thickness);
+  archive.number("workpiece/turned", "1", turned);
+  archive.integer("workpiece/steps_of_turn", steps_of_turn);
+  const auto path = [](std::size_t k) { return fmt::format("workpiece/layer/{}/", k); };
+  if (!archive.loading()) {
+    for (std::size_t k = 0; k < layers.size(); ++k) layers[k].archive_whole(archive, path(k));
+    return;
+  }
+  bool good = !low.empty() && low.size() == thickness.size() && steps_of_turn > 0 && turned >= 0.0;
+  slices.clear();
+  layers.clear();
+  for (std::size_t k = 0; good && k < low.size(); ++k) {
+    good = thickness[k] > 0.0;
+    slices.push_back({low[k], thickness[k]});
+    layers.emplace_back(archive, path(k));
+  }
+  if (!good) throw IoError("workpiece/ holds no layers");
+}
 
 std::vector<std::array<Vec2, 4>> section_pieces(const TriangleSurface& surface, double height) {
   std::vector<std::array<Vec2, 2>> sides; // upwards

@@ -5,7 +5,9 @@
 
 namespace cnem::machining {
 
-double Cutter::lag(double z) const { return z * std::tan(helix) / radius(); }
+double Cutter::lag(double z) const {
+  return edge ? edge->lag(z) - edge->lag(0.0) : z * std::tan(helix) / radius();
+}
 
 double Cutter::behind(std::size_t tooth) const {
   double angle = 0.0;
@@ -33,6 +35,7 @@ double Cutter::period(bool told_apart) const {
 }
 
 double Cutter::mean_radius(double from, double to) const {
+  if (edge) return edge->mean_radius(from, to);
   if (!(corner > 0.0)) return radius();
   // ∫ √(c² − (c − z)²) dz up to a height within the corner.
   const auto rounded = [&](double z) {
@@ -47,12 +50,14 @@ double Cutter::mean_radius(double from, double to) const {
 }
 
 double Cutter::profile(double from, double to) const {
+  if (edge) return edge->length(from, to);
   if (!(corner > 0.0)) return to - from;
   return corner * (arc(to) - arc(from)) + std::max(to, corner) - std::max(from, corner);
 }
 
 double Cutter::lead(double from, double to) const {
   constexpr double quarter = 0.5 * std::numbers::pi;
+  if (edge) return edge->lead(from, to);
   if (!(corner > 0.0)) return quarter;
   return std::min(quarter, arc(from) + 0.5 * profile(from, to) / corner);
 }

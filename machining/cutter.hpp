@@ -2,10 +2,13 @@
 // A milling cutter and how it stands in the workpiece. The cutter is fed along +x and turns clockwise seen
 // from +z; the angle φ of a tooth counts from +y in that sense: it is at (R sin φ, R cos φ). z goes up from
 // the tip along the axis, and the edge lags behind with it.
+#include "core/parameter.hpp"
 #include "core/vec.hpp"
+#include "machining/cutting_edge.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <vector>
 
@@ -20,11 +23,21 @@ struct Cutter {
   double run_out = 0.0;       ///< m, of the axis of the cutter beside that of the spindle
   double run_out_angle = 0.0; ///< rad, from tooth 0 to the direction of it, clockwise
   double corner = 0.0;        ///< m, radius between end and side: 0 a flat end, the cutter's radius a ball
+  /// Of tooth 0 at the begin, in place of helix and corner.
+  std::shared_ptr<const CuttingEdge> edge{};
 
   std::size_t teeth() const { return pitch.size(); }
   double radius() const { return 0.5 * diameter; }
   /// rad that the edge lags behind its tip at a height, m.
   double lag(double z) const;
+  /// rad, mean between two heights, behind where teeth are counted from.
+  double mean_lag(double from, double to) const {
+    return edge ? edge->lag(from, to) : lag(0.5 * (from + to));
+  }
+  /// Whether the radius of edges changes over the height.
+  bool rounded() const { return corner > 0.0 || edge; }
+  /// m over the tip, up to where there are edges.
+  double top() const { return edge ? edge->top() : infinite; }
   /// rad from the tip of tooth 0 back to that of another.
   double behind(std::size_t tooth) const;
   /// rad from a tooth to the one that cut before it.

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <fmt/format.h>
 #include <numbers>
 #include <optional>
 
@@ -174,8 +175,7 @@ std::array<std::optional<Region>, 2> regions(const Sweep& sweep) {
 } // namespace
 
 bool DexelLayer::misses(const Sweep& sweep) const {
-  const Vec2 high =
-      low_ + size_.cwiseProduct(Vec2(static_cast<double>(count_[0]), static_cast<double>(count_[1])));
+  const Vec2 high = this->high();
   const auto& [a, b] = sweep;
   const Vec2 least = a.edge.cwiseMin(a.inner).cwiseMin(b.edge).cwiseMin(b.inner);
   const Vec2 most = a.edge.cwiseMax(a.inner).cwiseMax(b.edge).cwiseMax(b.inner);
@@ -315,6 +315,23 @@ void DexelLayer::archive(Archive& archive, const std::string& path) {
   if (!good || next != corners.size() || at != place.size())
     throw IoError(path + " holds no layer of dexels of this case");
 }
+
+void DexelLayer::archive_whole(Archive& archive, const std::string& path) {
+  archive.vector<2>(path + "low", "m", low_);
+  archive.vector<2>(path + "size", "m", size_);
+  for (const std::size_t axis : {0U, 1U})
+    archive.integer(fmt::format("{}count.{}", path, axis), count_[axis]);
+  if (archive.loading()) {
+    constexpr std::size_t most = 1U << 30U;
+    const auto [nx, ny] = count_;
+    if (nx < 1 || ny < 1 || nx > most || ny > most / nx || !(size_.minCoeff() > 0.0) || !low_.allFinite())
+      throw IoError(path + " holds no layer of dexels");
+    cell_.assign(nx * ny, full);
+  }
+  this->archive(archive, path);
+}
+
+DexelLayer::DexelLayer(Archive& archive, const std::string& path) { archive_whole(archive, path); }
 
 double DexelLayer::area() const {
   std::size_t whole = 0;

@@ -47,6 +47,8 @@ public:
   /// Matter of convex quadrilaterals alone, counter-clockwise, that share no area.
   DexelLayer(const Vec2& low, const Vec2& high, const Vec2& pitch,
              const std::vector<std::array<Vec2, 4>>& pieces);
+  /// One that was archived as a whole. Throws IoError for what is none.
+  DexelLayer(Archive& archive, const std::string& path);
 
   /// What a rake would take.
   Bite ask(const Sweep& sweep) const;
@@ -61,6 +63,12 @@ public:
 
   /// What evolves, under a path of names that ends with "/". Throws IoError for what is no such layer.
   void archive(Archive& archive, const std::string& path);
+  /// The same with the cells themselves.
+  void archive_whole(Archive& archive, const std::string& path);
+  const Vec2& low() const { return low_; } ///< m, corners of the box
+  Vec2 high() const {
+    return low_ + size_.cwiseProduct(Vec2(static_cast<double>(count_[0]), static_cast<double>(count_[1])));
+  }
   /// Matter on the line along an axis that crosses the other one at a place, m, in order; none beside the
   /// box.
   std::vector<Interval> matter(int axis, double place) const;
@@ -84,7 +92,7 @@ private:
   std::array<Vec2, 4> square(std::size_t i, std::size_t j) const;
   std::size_t cell(std::size_t i, std::size_t j) const { return i * count_[1] + j; }
 
-  Vec2 low_, size_; ///< m, of the box, of a cell
+  Vec2 low_ = Vec2::Zero(), size_ = Vec2::Zero(); ///< m, of the box, of a cell
   std::array<std::size_t, 2> count_{};
   std::vector<std::int32_t> cell_; ///< [along x × along y] empty, full, or an index of cut_
   std::vector<Pieces> cut_;

@@ -6,17 +6,40 @@
 
 namespace cnem::machining {
 
-EdgeElements::EdgeElements(const MillingCut& cut, double depth, int layers, double step)
-    : cut_(cut), thickness_(depth / layers), chord_(std::sqrt(step / std::sin(step))) {
-  assert(depth > 0.0 && layers > 0 && step > 0.0 && step < 1.0);
-  for (int k = 0; k < layers; ++k) {
-    const double low = k * thickness_, high = low + thickness_;
+EdgeElements::EdgeElements(const MillingCut& cut, std::span<const Slice> slices, double tip, double step)
+    : cut_(cut), chord_(std::sqrt(step / std::sin(step))) {
+  assert(!slices.empty() && step > 0.0 && step < 1.0);
+  constexpr double rounding = 1e-6; // of the thickness
+  for (const Slice& slice : slices) {
+    if (slice.middle() < tip) {
+      ++lowest_;
+      ++end_;
+      layer_.emplace_back();
+      continue;
+    }
+    double low = slice.low - tip;
+    if (std::abs(low) < rounding * slice.thickness) low = 0.0;
+    const double high = low + slice.thickness;
+    assert(low >= 0.0);
+    if (high > cut.cutter.top() + rounding * slice.thickness) {
+      layer_.emplace_back();
+      continue;
+    }
+    ++end_;
     layer_.push_back({.low = low,
+                      .thickness = slice.thickness,
                       .radius = cut.cutter.mean_radius(low, high),
-                      .lag = cut.cutter.lag(0.5 * (low + high)),
+                      .lag = cut.cutter.mean_lag(low, high),
                       .width = cut.cutter.profile(low, high),
                       .lead = cut.cutter.lead(low, high)});
   }
+  if (const CuttingEdge* edge = cut.cutter.edge.get())
+    for (const Layer& layer : layer_) {
+      const CuttingEdge::Angles angles = edge->angles(layer.low, layer.low + layer.thickness);
+      law_.push_back(cut.law);
+      law_.back().incline(angles.inclination);
+      law_.back().take_rake(angles.rake);
+    }
   for (std::size_t j = 0; j < cut.cutter.teeth(); ++j) teeth_.push_back(cut.cutter.behind(j));
 }
 
@@ -24,8 +47,7 @@ Vec2 EdgeElements::arm(std::size_t layer, std::size_t tooth, const CutterPlace& 
   const Cutter& cutter = cut_.cutter;
   const Layer& at = layer_[layer];
   const double low = at.low - place.axis.z();
-  const double radius =
-      chord_ * (cutter.corner > 0.0 ? cutter.mean_radius(low, low + thickness_) : at.radius);
+  const double radius = chord_ * (cutter.rounded() ? cutter.mean_radius(low, low + at.thickness) : at.radius);
   return radius * outward(phi(layer, tooth, place.angle)).head<2>();
 }
 
@@ -62,13 +84,14 @@ void EdgeElements::add(EdgeLoad& load, std::size_t layer, std::size_t tooth, con
   const double of_edge =
       0.5 * (1.0 + std::sqrt(std::max(0.0, 1.0 - 2.0 * a / at.radius))); // a/h, way of the middle
   const double inward = a / of_edge;
-  const double chip = inward * thickness_ / at.width;
+  const double chip = inward * at.thickness / at.width;
   const double middle = 0.5 * (bite.begin + bite.end);
   const double turned = from.angle + middle * (to.angle - from.angle);
-  const Vec3 local = at.width * share * cut_.law.at({.thickness = chip, .speed = path / duration}).force;
+  const CuttingLaw& law = law_.empty() ? cut_.law : law_[layer];
+  const Vec3 local = at.width * share * law.at({.thickness = chip, .speed = path / duration}).force;
   load.work -= bear(load, layer, tooth, turned, local).dot(way);
   load.power += local[0] * path * of_edge / duration;
-  load.removed += bite.area * thickness_;
+  load.removed += bite.area * at.thickness;
   load.thickest = std::max(load.thickest, chip);
 }
 
@@ -77,7 +100,8 @@ void EdgeElements::plough(EdgeLoad& load, std::size_t layer, std::size_t tooth, 
                           const CutterPlace& to) const {
   if (!(pressed > 0.0)) return;
   // Across the profile the land is pressed in by less and is as much longer: the volume is that of the layer.
-  const double normal = cut_.flank.specific_force * pressed * thickness_, rub = cut_.flank.friction * normal;
+  const double normal = cut_.flank.specific_force * pressed * layer_[layer].thickness,
+               rub = cut_.flank.friction * normal;
   load.ploughed -= bear(load, layer, tooth, 0.5 * (from.angle + to.angle), Vec3(rub, normal, 0.0)).dot(way);
   load.power += rub * way.head<2>().norm() / duration;
 }

@@ -2,7 +2,9 @@
 // The edges of a cutter divided into elements, one for each tooth and layer, and what they bear.
 #include "machining/dexels.hpp"
 #include "machining/milling_cut.hpp"
+#include "machining/slices.hpp"
 
+#include <span>
 #include <vector>
 
 namespace cnem::machining {
@@ -26,16 +28,18 @@ struct EdgeLoad {
 
 class EdgeElements {
 public:
-  /// depth: m along the axis, in layers of the same thickness. step: rad that the cutter turns by in a step;
-  /// edges go straight in one, so far out that they enclose what arcs would.
-  EdgeElements(const MillingCut& cut, double depth, int layers, double step);
+  /// slices: layers of the workpiece; tip: m, the height of the cutter's tip among them, between two of them.
+  /// step: rad that the cutter turns by in a step; edges go straight in one, so far out that they enclose
+  /// what arcs would.
+  EdgeElements(const MillingCut& cut, std::span<const Slice> slices, double tip, double step);
 
   std::size_t layers() const { return layer_.size(); }
   std::size_t teeth() const { return teeth_.size(); }
-  double thickness() const { return thickness_; } ///< m, of a layer
+  /// Whether a layer lies over the tip of the cutter and below the top of its edges: there are some in it.
+  bool reaches(std::size_t layer) const { return layer >= lowest_ && layer < end_; }
   /// m over the tip, the middle of a layer.
-  double height(std::size_t layer) const { return layer_[layer].low + 0.5 * thickness_; }
-  /// m, mean of a layer, of the cutter round its own axis.
+  double over_tip(std::size_t layer) const { return layer_[layer].low + 0.5 * layer_[layer].thickness; }
+  /// m, mean of a layer that it reaches, of the cutter round its own axis.
   double radius(std::size_t layer) const { return layer_[layer].radius; }
 
   /// An element's rake face, which is `reach` deep but where the cutter is thinner. The cutter that is higher
@@ -55,11 +59,12 @@ public:
 
 private:
   struct Layer {
-    double low = 0.0;    ///< m over the tip
-    double radius = 0.0; ///< m
-    double lag = 0.0;    ///< rad
-    double width = 0.0;  ///< m, of the chip: along the profile
-    double lead = 0.0;   ///< rad
+    double low = 0.0;       ///< m over the tip
+    double thickness = 0.0; ///< m
+    double radius = 0.0;    ///< m
+    double lag = 0.0;       ///< rad
+    double width = 0.0;     ///< m, of the chip: along the profile
+    double lead = 0.0;      ///< rad
   };
   /// Of an edge at a layer when the cutter has turned so far.
   double phi(std::size_t layer, std::size_t tooth, double turned) const {
@@ -69,9 +74,11 @@ private:
   Vec3 bear(EdgeLoad& load, std::size_t layer, std::size_t tooth, double turned, const Vec3& local) const;
 
   MillingCut cut_;
-  double thickness_ = 0.0, chord_ = 1.0; ///< m; of the radius
+  double chord_ = 1.0;               ///< of the radius
+  std::size_t lowest_ = 0, end_ = 0; ///< layers with edges
   std::vector<Layer> layer_;
-  std::vector<double> teeth_; ///< rad behind tooth 0
+  std::vector<CuttingLaw> law_; ///< [layer] of edges whose angles change; none: that of the cut
+  std::vector<double> teeth_;   ///< rad behind tooth 0
 };
 
 } // namespace cnem::machining

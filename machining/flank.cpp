@@ -78,11 +78,6 @@ void FlankTraces::note(std::size_t edge, const Way& last, double pressed) {
   before_[edge] = pressed;
 }
 
-void FlankTraces::clear() {
-  std::fill(way_.begin(), way_.end(), Way{});
-  std::fill(before_.begin(), before_.end(), 0.0);
-}
-
 void FlankTraces::archive(Archive& archive) {
   archive.list("milling/flank/pressed", "m^2", before_);
   std::vector<double> numbers; // shares as lengths of a way of 1 m

@@ -48,7 +48,6 @@ public:
   /// The same of the way noted last.
   double before(std::size_t edge) const { return before_[edge]; }
   void note(std::size_t edge, const Way& last, double pressed);
-  void clear();
 
   /// Throws IoError for what is of other edges.
   void archive(Archive& archive);

@@ -23,7 +23,7 @@ Workpiece workpiece_of(const MillingCut& cut, const ProcessSettings& settings) {
   using enum ProcessSettings::Start;
   if (settings.blank)
     return {{settings.blank->low.x(), settings.blank->low.y(), 0.0},
-            {settings.blank->high.x(), settings.blank->high.y(), settings.axial_depth}};
+            {settings.blank->high.x(), settings.blank->high.y(), settings.blank->height}};
   const Cutter& cutter = cut.cutter;
   const double r = cutter.radius(), beside = beyond(cutter), depth = cut.engagement.radial_depth;
   const bool up = cut.engagement.side == Engagement::Side::up, slot = depth >= cutter.diameter;
@@ -34,6 +34,14 @@ Workpiece workpiece_of(const MillingCut& cut, const ProcessSettings& settings) {
            slot || !up ? -r - beside : r - depth, 0.0},
           {start_of(cutter, settings.start) + settings.length + r + beside,
            slot || up ? r + beside : depth - r, settings.axial_depth}};
+}
+
+std::vector<Slice> slices_of(const ProcessSettings& settings) {
+  std::vector<double> tips;
+  for (const ToolPath& pass : settings.passes) tips.push_back(pass.tip());
+  const double most = settings.axial_depth / settings.layers;
+  if (settings.blank && settings.blank->left) return divided(settings.blank->left->slices, most, tips);
+  return slices(settings.blank ? settings.blank->height : settings.axial_depth, most, tips);
 }
 
 ToolMotion motion_of(const MillingCut& cut, const ProcessSettings& settings) {
@@ -57,6 +65,12 @@ Vec2 MillingProcess::cells() const {
 DexelLayer MillingProcess::stock(std::size_t layer) const {
   assert(settings_.blank);
   const Blank& blank = *settings_.blank;
+  if (blank.left) {
+    const std::vector<Slice>& slices = blank.left->slices;
+    const auto above = std::find_if(slices.begin() + 1, slices.end(),
+                                    [&](const Slice& slice) { return slice.low >= height(layer); });
+    return blank.left->layers[index_of(above - slices.begin()) - 1];
+  }
   if (blank.surface.triangles.empty()) return {blank.low, blank.high, cells()};
   return {blank.low, blank.high, cells(), section_pieces(blank.surface, height(layer))};
 }
@@ -64,7 +78,8 @@ DexelLayer MillingProcess::stock(std::size_t layer) const {
 void MillingProcess::take_blank() {
   using enum ProcessSettings::Start;
   if (settings_.blank) {
-    for (std::size_t k = 0; k < edges_.layers(); ++k) layer_.push_back(stock(k));
+    if (const auto& left = settings_.blank->left) first_ = left->turned * settings_.steps / left->steps_of_turn;
+    for (std::size_t k = 0; k < slice_.size(); ++k) layer_.push_back(stock(k));
     block_ = volume();
     return;
   }
@@ -72,10 +87,10 @@ void MillingProcess::take_blank() {
   const Vec2 low = block.low.head<2>(), high = block.high.head<2>();
   const DexelLayer whole(low, high, cells());
   block_ = whole.area() * settings_.axial_depth;
-  for (std::size_t k = 0; k < edges_.layers();
+  for (std::size_t k = 0; k < slice_.size();
        ++k) { // what earlier turns have left: the disc, and its way there
-    const double radius = edges_.radius(k);
-    if (k > 0 && radius == edges_.radius(k - 1)) {
+    const double radius = edges().radius(k);
+    if (k > 0 && radius == edges().radius(k - 1)) {
       layer_.push_back(layer_.back());
       continue;
     }
@@ -88,9 +103,11 @@ void MillingProcess::take_blank() {
 }
 
 void MillingProcess::begin_pass(std::size_t pass) {
+  const EdgeElements& edges = edges_[pass];
   const Vec2 at = way_at(static_cast<double>(step_)).at;
   for (std::size_t k = 0; k < layer_.size(); ++k) {
-    const double radius = edges_.radius(k);
+    if (!edges.reaches(k)) continue;
+    const double radius = edges.radius(k);
     if (settings_.start == ProcessSettings::Start::hole) {
       layer_[k].erase_disc(at, radius);
       continue;
@@ -102,8 +119,8 @@ void MillingProcess::begin_pass(std::size_t pass) {
       throw DivergenceError(
           fmt::format("pass {} begins in matter: {:.4g} mm² of it lie within the cutter at ({:.6g}, {:.6g}) "
                       "mm, {:.4g} "
-                      "mm over the tip, expected a start beside the workpiece, or milling.start = \"hole\"",
-                      pass + 1, 1e6 * there, 1e3 * at.x(), 1e3 * at.y(), 1e3 * height(k)),
+                      "mm over its tip, expected a start beside the workpiece, or milling.start = \"hole\"",
+                      pass + 1, 1e6 * there, 1e3 * at.x(), 1e3 * at.y(), 1e3 * edges.over_tip(k)),
           -1, "displacement");
   }
   ++passes_begun_;
@@ -113,28 +130,33 @@ void MillingProcess::begin_pass(std::size_t pass) {
   state_.setZero();
   shift_.assign(layer_.size(), Vec3::Zero());
   force_ = shift_;
-  if (flanks_) flanks_->clear();
+  farthest_ = 0.0; // of this pass: what those before have left is met feed by feed
+  take_flanks();
   if (part_) part_->rest();
+}
+
+LeftWorkpiece MillingProcess::left() const {
+  return {slice_, layer_, first_ + static_cast<double>(step_), settings_.steps};
 }
 
 double MillingProcess::volume() const {
   double sum = 0.0;
-  for (const DexelLayer& layer : layer_) sum += layer.area();
-  return sum * edges_.thickness();
+  for (std::size_t k = 0; k < layer_.size(); ++k) sum += layer_[k].area() * slice_[k].thickness;
+  return sum;
 }
 
 std::optional<double> MillingProcess::left_at(std::size_t layer, double x) const {
   const std::vector<Interval> matter = layer_[layer].matter(1, x);
   if (matter.empty()) return std::nullopt;
   const bool up = cut_.engagement.side == Engagement::Side::up;
-  return up ? edges_.radius(layer) - matter.back().low : matter.front().high + edges_.radius(layer);
+  return up ? edges().radius(layer) - matter.back().low : matter.front().high + edges().radius(layer);
 }
 
 std::optional<double> MillingProcess::left_beside(std::size_t layer, double way,
                                                   const DexelLayer& stock) const {
   assert(motion_.last_path());
   const auto [at, along] = motion_.last_path()->at(way);
-  const double r = edges_.radius(layer);
+  const double r = edges().radius(layer);
   const auto beside = [&](const DexelLayer& of) {
     return of.matter(at, machined_side(along), cut_.cutter.radius() + beyond(cut_.cutter));
   };

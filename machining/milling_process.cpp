@@ -17,25 +17,21 @@ MillingProcess::MillingProcess(MillingCut cut, std::vector<Mode> modes, const Pr
     : cut_(std::move(cut)), modes_(std::move(modes)), settings_(settings), motion_(motion_of(cut_, settings)),
       dt_(motion_.dt(0)),
       feed_speed_(cut_.feed * static_cast<double>(cut_.cutter.teeth()) * settings.spindle / full_turn),
-      edges_(cut_, settings.axial_depth, settings.layers, full_turn / settings.steps),
-      part_(std::move(part)) {
+      slice_(slices_of(settings_)), part_(std::move(part)) {
   assert(settings.passes.empty() == !settings.blank);
+  for (std::size_t pass = 0; pass < motion_.passes().size(); ++pass)
+    edges_.emplace_back(cut_, slice_, motion_.tip(pass), full_turn / settings.steps);
   take_blank();
   for (const Mode& mode : modes_) {
     free_.emplace_back(mode, dt_);
     loss_.push_back(damping_loss(mode, dt_));
   }
   state_ = Eigen::MatrixXd::Zero(2, static_cast<Eigen::Index>(modes_.size()));
-  bite_.resize(edges_.layers() * edges_.teeth());
+  bite_.resize(edges().layers() * edges().teeth());
   way_.resize(bite_.size());
   sweep_.resize(bite_.size());
   if (part_) edge_.resize(bite_.size());
-  if (cut_.flank.presses()) {
-    std::vector<double> radius;
-    for (std::size_t k = 0; k < layer_.size(); ++k) radius.push_back(edges_.radius(k));
-    flanks_.emplace(cut_.flank, radius, edges_.teeth(), full_turn / settings.steps);
-    pressed_.resize(bite_.size());
-  }
+  take_flanks();
   shape_ = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(layer_.size()), state_.cols());
   shift_.assign(layer_.size(), Vec3::Zero());
   force_ = shift_;
@@ -49,7 +45,17 @@ MillingProcess MillingProcess::rigid() const {
   still.step_ = step_;
   still.passes_begun_ = passes_begun_;
   still.farthest_ = farthest_; // matter lies as deep
+  still.take_flanks();
   return still;
+}
+
+void MillingProcess::take_flanks() {
+  if (!cut_.flank.presses()) return;
+  std::vector<double> radius; // without edges none is pressed in: any will do
+  for (std::size_t k = 0; k < layer_.size(); ++k)
+    radius.push_back(edges().reaches(k) ? edges().radius(k) : cut_.cutter.radius());
+  flanks_.emplace(cut_.flank, radius, edges().teeth(), full_turn / settings_.steps);
+  pressed_.assign(bite_.size(), 0.0);
 }
 
 bool MillingProcess::at_end() const { return motion_.at_end(step_); }
@@ -70,8 +76,11 @@ void MillingProcess::begin_step() {
 void MillingProcess::take_shapes() {
   const double x = way_at(static_cast<double>(step_) + 0.5).at.x();
   for (std::size_t i = 0; i < modes_.size(); ++i)
-    for (std::size_t k = 0; k < layer_.size(); ++k)
-      shape_(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(i)) = modes_[i].shape(x, height(k));
+    for (std::size_t k = 0; k < layer_.size(); ++k) { // heights of a tool are those over its tip
+      const double z = modes_[i].of == Mode::Of::tool ? edges().over_tip(k) : height(k);
+      shape_(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(i)) =
+          edges().reaches(k) ? modes_[i].shape(x, z) : 0.0;
+    }
 }
 
 MillingProcess::PerLayer MillingProcess::shift_of(const Eigen::MatrixXd& state) const {
@@ -88,7 +97,7 @@ MillingProcess::PerLayer MillingProcess::shift_of(const Eigen::MatrixXd& state) 
 CutterPlace MillingProcess::place(std::int64_t step) const {
   const double at = static_cast<double>(step);
   const Vec2 axis = way_at(at).at;
-  return {Vec3(axis.x(), axis.y(), 0.0), full_turn * (at / settings_.steps)};
+  return {Vec3(axis.x(), axis.y(), 0.0), full_turn * ((first_ + at) / settings_.steps)};
 }
 
 namespace {
@@ -122,10 +131,10 @@ Sweep MillingProcess::in_material(std::size_t layer, std::size_t tooth,
   if (!part_->begin().may_meet(low, high) && !part_->end().may_meet(low, high)) return sweep;
   const auto back = [&](const HexahedralMap& map, const CutterPlace& at, Rake rake) -> Rake {
     Vec3 edge = map.material(in_space(rake.edge));
-    if (cut_.cutter.corner > 0.0) { // a layer that is higher is cut farther up the profile
+    if (cut_.cutter.rounded()) { // a layer that is higher is cut farther up the profile
       CutterPlace beside = at;
       beside.axis.z() += edge.z() - z;
-      rake = edges_.rake(layer, tooth, beside, depth);
+      rake = edges().rake(layer, tooth, beside, depth);
       edge = map.material(in_space(rake.edge));
     }
     return {edge.head<2>(), map.material(in_space(rake.inner)).head<2>()};
@@ -153,12 +162,19 @@ void MillingProcess::sweep_edges(const PerLayer& shift) {
   const double forward = 1.5 * feed_speed_ / settings_.spindle; // nearer to the axis rakes go backwards
 #pragma omp parallel for schedule(static) if (bite_.size() >= 256)
   for (std::size_t k = 0; k < layer_.size(); ++k) {
-    const double r = edges_.radius(k), depth = std::min(deep, std::max(r - forward, 0.5 * r));
+    if (!edges().reaches(k)) {
+      for (std::size_t i = k * edges().teeth(); i < (k + 1) * edges().teeth(); ++i) {
+        bite_[i] = {};
+        way_[i].setZero();
+      }
+      continue;
+    }
+    const double r = edges().radius(k), depth = std::min(deep, std::max(r - forward, 0.5 * r));
     const CutterPlace first = shifted(from, shift_[k]), last = shifted(to, shift[k]);
-    for (std::size_t j = 0; j < edges_.teeth(); ++j) {
-      const std::size_t i = k * edges_.teeth() + j;
+    for (std::size_t j = 0; j < edges().teeth(); ++j) {
+      const std::size_t i = k * edges().teeth() + j;
       Sweep& sweep = sweep_[i];
-      sweep = {edges_.rake(k, j, first, depth), edges_.rake(k, j, last, depth)};
+      sweep = {edges().rake(k, j, first, depth), edges().rake(k, j, last, depth)};
       Vec2 turned = Vec2::Zero(); // m, by which the part turns and strains the way
       double lifted = 0.0;        // m, by the part, along the axis
       if (part_) {
@@ -188,21 +204,22 @@ EdgeLoad MillingProcess::bear(const PerLayer& shift, PerLayer& force, TakeBite&&
   sweep_edges(shift); // of all edges before any bites: rakes that have no place in the material end the step
 #pragma omp parallel for schedule(static) if (bite_.size() >= 256)
   for (std::size_t k = 0; k < layer_.size(); ++k) {
+    if (!edges().reaches(k)) continue;
     const CutterPlace last{to.axis + shift[k], to.angle};
-    for (std::size_t i = k * edges_.teeth(), j = 0; j < edges_.teeth(); ++i, ++j) {
+    for (std::size_t i = k * edges().teeth(), j = 0; j < edges().teeth(); ++i, ++j) {
       bite_[i] = bite(k, sweep_[i]);
-      if (flanks_) pressed_[i] = flanks_->pressed(i, edges_.arm(k, j, last), way_of(i));
+      if (flanks_) pressed_[i] = flanks_->pressed(i, edges().arm(k, j, last), way_of(i));
     }
   }
   if (part_) part_->unload();
   EdgeLoad load;
   for (std::size_t k = 0, i = 0; k < layer_.size(); ++k) {
     const Vec3 below = load.force;
-    for (std::size_t j = 0; j < edges_.teeth(); ++j, ++i) {
+    for (std::size_t j = 0; j < edges().teeth(); ++j, ++i) {
       const Vec3 others = load.force;
-      edges_.add(load, k, j, bite_[i], way_[i], dt_, from, to);
+      edges().add(load, k, j, bite_[i], way_[i], dt_, from, to);
       if (flanks_)
-        edges_.plough(load, k, j, 0.5 * (flanks_->before(i) + pressed_[i]), way_[i], dt_, from, to);
+        edges().plough(load, k, j, 0.5 * (flanks_->before(i) + pressed_[i]), way_[i], dt_, from, to);
       if (part_) part_->press(edge_[i], others - load.force);
     }
     force[k] = load.force - below;
@@ -315,7 +332,7 @@ ProcessStep MillingProcess::make_step() {
     for (std::size_t i = 0; i < pressed_.size(); ++i) flanks_->note(i, way_of(i), pressed_[i]);
   step.unsettled = unsettled;
   step.time = time() + 0.5 * dt_;
-  step.angle = motion_.steady() ? settings_.spindle * step.time
+  step.angle = motion_.steady() ? settings_.spindle * step.time + full_turn * (first_ / settings_.steps)
                                 : place(step_).angle + 0.5 * full_turn / settings_.steps;
   Eigen::MatrixXd state = moved(force_);
   const PerLayer seen = part_ ? relative(shift) : shift;
@@ -347,6 +364,7 @@ void MillingProcess::archive(Archive& archive) {
   }
   archive.number("milling/farthest", "m", farthest_);
   ledger_.archive(archive);
+  if (archive.loading()) take_flanks();
   if (flanks_) flanks_->archive(archive);
   if (part_) part_->archive(archive);
   for (std::size_t k = 0; k < layer_.size(); ++k)

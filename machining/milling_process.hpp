@@ -25,9 +25,10 @@ struct ProcessSettings {
   double dwell = 0.0;       ///< turns at its end, without feed
   Start start = Start::inside;
   double pitch = 0.0; ///< m, of dexels
-  int layers = 1;     ///< along the axis
+  int layers = 1;     ///< along the axis, in `axial_depth`
   int steps = 0;      ///< in a turn
-  /// In place of length: passes through a blank, which begin in a hole or beside matter.
+  /// In place of length: passes through a blank, which begin in a hole or beside matter. Between two of them
+  /// the cutter is lifted.
   std::vector<ToolPath> passes{};
   std::optional<Blank> blank{};
   std::optional<DriveTables> drive{};
@@ -42,11 +43,13 @@ struct ProcessStep : EdgeLoad {
                           ///< agree for good: edges that only rub
 };
 
-/// Corners of the workpiece at first, m: x and y, and z from the tip to the depth.
+/// Corners of the workpiece at first, m: x and y, and z from the lowest tip to its height.
 struct Workpiece {
   Vec3 low, high;
 };
 Workpiece workpiece_of(const MillingCut& cut, const ProcessSettings& settings);
+/// The layers that it is divided into: tips of passes lie between two of them.
+std::vector<Slice> slices_of(const ProcessSettings& settings);
 /// The way of the cutter's axis.
 ToolMotion motion_of(const MillingCut& cut, const ProcessSettings& settings);
 
@@ -73,19 +76,24 @@ public:
   const ToolMotion& motion() const { return motion_; }
   /// m, of the cutter's axis without vibration at the begin of the next step.
   Vec2 axis() const { return way_at(static_cast<double>(step_)).at; }
-  const FlexiblePart* part() const { return part_.get(); } ///< none: it is rigid but for its modes
+  double tip() const { return motion_.tip(motion_.pass_of(step_)); } ///< m, height of the tip then
+  double pass_tip() const { return motion_.tip(pass()); }             ///< m, in the last step
+  const FlexiblePart* part() const { return part_.get(); }           ///< none: it is rigid but for its modes
   Workpiece workpiece() const { return workpiece_of(cut_, settings_); }
   const std::vector<DexelLayer>& layers() const { return layer_; }
   /// A layer of the workpiece of passes before the first one.
   DexelLayer stock(std::size_t layer) const;
-  double height(std::size_t layer) const { return edges_.height(layer); } ///< m, middle of it over the tip
-  double radius(std::size_t layer) const { return edges_.radius(layer); } ///< m, of the cutter
-  double volume() const;                                                  ///< m³ of matter
+  const std::vector<Slice>& slices() const { return slice_; }               ///< [layer]
+  double height(std::size_t layer) const { return slice_[layer].middle(); } ///< m
+  double radius(std::size_t layer) const { return edges().radius(layer); }  ///< m, of the cutter
+  double volume() const;                                                    ///< m³ of matter
   double block() const { return block_; } ///< m³ of matter before anything was taken
+  LeftWorkpiece left() const;             ///< what there is now, for another run
   const MillingLedger& ledger() const { return ledger_; }
-  /// Whether teeth reach matter in a layer: the end of a cutter is thinner.
+  /// Whether teeth of this pass reach matter in a layer: the end of a cutter is thinner.
   bool cuts(std::size_t layer) const {
-    return edges_.radius(layer) > cut_.cutter.radius() - cut_.engagement.radial_depth;
+    return edges().reaches(layer) &&
+           edges().radius(layer) > cut_.cutter.radius() - cut_.engagement.radial_depth;
   }
   /// m, matter that is left on the machined side beyond where the teeth pass, at a place along x; negative:
   /// too much was taken. None where no matter is left.
@@ -103,6 +111,9 @@ public:
 private:
   using PerLayer = std::vector<Vec3>;
 
+  std::size_t pass() const { return passes_begun_ > 0 ? index_of(passes_begun_) - 1 : 0; } ///< of the last step
+  const EdgeElements& edges() const { return edges_[pass()]; }
+  void take_flanks(); ///< of the pass, without traces
   /// At a time in steps within the pass of this step.
   ToolPath::Place way_at(double at) const;
   CutterPlace place(std::int64_t step) const; ///< without vibration
@@ -146,8 +157,10 @@ private:
   ToolMotion motion_;
   double dt_ = 0.0, feed_speed_ = 0.0, block_ = 0.0;
   std::vector<FreeMotion> free_;
-  std::vector<Mat2> loss_; ///< of modes in a step, damping_loss()
-  EdgeElements edges_;
+  std::vector<Mat2> loss_;          ///< of modes in a step, damping_loss()
+  std::vector<Slice> slice_;        ///< [layer]
+  std::vector<EdgeElements> edges_; ///< [pass] one without passes
+  double first_ = 0.0;              ///< steps that runs before this one have turned the cutter by
   std::int64_t step_ = 0, passes_begun_ = 0;
   std::vector<DexelLayer> layer_;
   std::vector<Sweep> sweep_; ///< [layer × tooth] of the last question
@@ -161,7 +174,7 @@ private:
   std::vector<Vec3> edge_; ///< [layer × tooth] m, of the material, where the edge is in the middle of its way
   PerLayer shift_;         ///< m, at the begin of the step
   PerLayer force_;         ///< N, of the last step
-  double farthest_ = 0.0;  ///< m, the largest shift so far
+  double farthest_ = 0.0;  ///< m, the largest shift so far in this pass
   MillingLedger ledger_;
 };
 

@@ -9,7 +9,8 @@
 
 namespace cnem::machining {
 
-ToolPath::ToolPath(std::vector<CurvePiece> pieces) : pieces_(std::move(pieces)), begin_{0.0} {
+ToolPath::ToolPath(std::vector<CurvePiece> pieces, double tip)
+    : pieces_(std::move(pieces)), tip_(tip), begin_{0.0} {
   assert(!pieces_.empty());
   for (const CurvePiece& piece : pieces_) begin_.push_back(begin_.back() + piece.length());
 }
@@ -82,6 +83,7 @@ void ToolMotion::plan(const std::vector<double>& lengths, double dwell,
   std::int64_t step = 0;
   for (const double length : lengths) {
     Pass pass{.begin = step, .end = step};
+    if (!drive) way = 0.0; // steps of a pass do not depend on those before it, to the last bit
     const double begin = way;
     constexpr double whole = 1.0 - 1e-12;
     while (way - begin < whole * length) {
@@ -116,7 +118,12 @@ double ToolMotion::way(double at) const {
 
 ToolPath::Place ToolMotion::place(std::size_t pass, double at) const {
   if (path_.empty()) return {Vec2(start_ + std::min(way(at), length_), 0.0), Vec2::UnitX()};
-  return path_[pass].at(way(at) - way(static_cast<double>(passes_[pass].begin)));
+  return path_[pass].at(way_of(pass, at));
+}
+
+double ToolMotion::way_of(std::size_t pass, double at) const {
+  const double begin = static_cast<double>(passes_[pass].begin);
+  return way_.empty() ? way(at - begin) : way(at) - way(begin);
 }
 
 } // namespace cnem::machining

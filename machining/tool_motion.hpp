@@ -10,11 +10,12 @@
 
 namespace cnem::machining {
 
-/// Pieces end to end, in the plane across the axis of the cutter.
+/// Pieces end to end, in a plane across the axis of the cutter.
 class ToolPath {
 public:
-  /// Pieces of one pass, one at least, each as long as it is not without length.
-  explicit ToolPath(std::vector<CurvePiece> pieces);
+  /// Pieces of one pass, one at least, each as long as it is not without length. tip: m, the height of the
+  /// cutter's tip.
+  explicit ToolPath(std::vector<CurvePiece> pieces, double tip = 0.0);
 
   double length() const { return begin_.back(); } ///< m
   struct Place {
@@ -24,9 +25,11 @@ public:
   /// way: m from the start, at which it ends at the latest.
   Place at(double way) const;
   const std::vector<CurvePiece>& pieces() const { return pieces_; }
+  double tip() const { return tip_; } ///< m
 
 private:
   std::vector<CurvePiece> pieces_;
+  double tip_;
   std::vector<double> begin_; ///< m, ways at which pieces begin, and the length
 };
 
@@ -56,6 +59,7 @@ public:
   /// Of the axis at a time in steps, within a pass.
   ToolPath::Place place(std::size_t pass, double at) const;
   Vec2 axis(std::size_t pass, double at) const { return place(pass, at).at; } ///< m
+  double tip(std::size_t pass) const { return path_.empty() ? 0.0 : path_[pass].tip(); } ///< m
 
   /// s, at the begin of a step.
   double time(std::int64_t step) const {
@@ -76,7 +80,8 @@ public:
   const ToolPath* last_path() const { return path_.empty() ? nullptr : &path_.back(); }
 
 private:
-  double way(double at) const; ///< m since the begin of the run, at a time in steps
+  double way(double at) const;                      ///< m since the begin of the run, at a time in steps
+  double way_of(std::size_t pass, double at) const; ///< m, of a pass
   void plan(const std::vector<double>& lengths, double dwell, const std::optional<DriveTables>& drive,
             std::size_t teeth);
 

@@ -137,9 +137,8 @@ std::vector<Chart> milling_charts(const std::filesystem::path& folder, const res
              .y_label = "left on it",
              .y_unit = "m",
              .series = {},
-             .note =
-                 "Positive: material is left beyond where still teeth would have passed. By height over the "
-                 "tip of the cutter."};
+             .note = "Positive: material is left beyond where still teeth would have passed. By height over "
+                     "the bottom of the workpiece."};
   const std::size_t layers = surface.column.size() - 1;
   std::size_t before = 0;
   int colour = 0;

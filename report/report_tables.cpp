@@ -82,6 +82,17 @@ ReportTable origin_table(const input::Value& root) {
   return table;
 }
 
+/// Which earlier run has left a workpiece of milling.
+ReportTable workpiece_table(const input::Value& root) {
+  ReportTable table{"Workpiece", {}};
+  const input::Value* workpiece = value_at(root, "milling", "workpiece");
+  if (!workpiece) return table;
+  for (const auto& [key, says] : {std::pair{"run", "left by the run in"}, {"content", "checksum of it"}})
+    if (const input::Member* member = workpiece->find(key); member && workpiece->find("run"))
+      table.rows.emplace_back(says, member->value.text);
+  return table;
+}
+
 /// Where the constants of damage laws come from.
 ReportTable damage_table(const input::Value& root) {
   ReportTable table{"Constants of damage", {}};
@@ -162,7 +173,8 @@ CaseWords case_words(const std::string& resolved) {
   }
   if (const input::Value* mechanical = value_at(root, "analysis", "mechanical"))
     said.moves = mechanical->kind != input::Value::Kind::boolean || mechanical->boolean;
-  for (ReportTable table : {variable_table(root), origin_table(root), damage_table(root)})
+  for (ReportTable table :
+       {variable_table(root), origin_table(root), damage_table(root), workpiece_table(root)})
     if (!table.rows.empty()) said.tables.push_back(std::move(table));
   return said;
 }

@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/index.hpp"
+#include "input/left_workpiece.hpp"
 #include "results/checkpoint_folder.hpp"
 #include "results/status.hpp"
 
@@ -194,6 +195,7 @@ constexpr std::array run_files{files::resolved_case,
                                files::mode_shapes,
                                files::machined_surface,
                                files::machined_surface_grid,
+                               input::left_workpiece,
                                files::spectra,
                                files::status,
                                files::report};

@@ -1,5 +1,6 @@
 #include "app/machining/machining_session.hpp"
 
+#include "app/machining/left_workpiece.hpp"
 #include "app/machining/milling_run.hpp"
 #include "app/machining/modes_run.hpp"
 #include "app/machining/removal_run.hpp"
@@ -200,9 +201,12 @@ std::vector<std::string> law_doubts(const input::Case& input, double thickest) {
           [](double h) { return si_format(h, "m"); });
   compare(holds.speed, milling.speed * milling.cut.cutter.radius(), "speed", "edges move at",
           [](double v) { return si_format(v, "m/s"); });
-  if (milling.rake)
-    compare(holds.rake, *milling.rake, "rake", "cutter.rake is",
-            [&](double a) { return results::number_format(a / degree, 4) + " deg"; });
+  if (!milling.rake) return doubts;
+  const bool facets = milling.cut.cutter.edge != nullptr; // lean by as much as an edge turns along them
+  const double off = std::max(holds.rake.low - *milling.rake, *milling.rake - holds.rake.high);
+  if (facets && off <= degree) return doubts;
+  compare(holds.rake, *milling.rake, "rake", facets ? "the rake of cutter.rake_face is" : "cutter.rake is",
+          [&](double a) { return results::number_format(a / degree, 4) + " deg"; });
   return doubts;
 }
 
@@ -277,6 +281,18 @@ void describe(const input::Case& input, Checked& checked) {
 
 } // namespace
 
+namespace {
+
+/// "3, tips at 4 mm, 2 mm, 0 m"
+std::string tips_text(const input::MachiningCase& milling) {
+  std::string text = fmt::format("{}, tips at ", milling.passes.size());
+  for (std::size_t k = 0; k < milling.passes.size(); ++k)
+    text += (k > 0 ? ", " : "") + si_format(milling.passes[k].tip(), "m");
+  return text;
+}
+
+} // namespace
+
 Checked check_machining(const input::Case& input) {
   Checked checked;
   if (!input.machining) {
@@ -294,8 +310,16 @@ Checked check_machining(const input::Case& input) {
   const double degree = std::numbers::pi / 180.0, entry = milling.cut.engagement.entry(cutter),
                exit = milling.cut.engagement.exit(cutter);
   add("case", input.title.empty() ? input.name : input.title);
-  add("cutter", fmt::format("{}, {} teeth, helix {} deg", si_format(cutter.diameter, "m"), cutter.teeth(),
-                            results::number_format(cutter.helix / degree)));
+  const auto shown = [&](double angle) { return results::number_format(angle / degree, 4) + " deg"; };
+  if (const machining::CuttingEdge* edge = cutter.edge.get()) {
+    const auto [inclination, rake] = edge->angles(0.0, milling.axial_depth);
+    add("cutter",
+        fmt::format("{}, {} teeth, edges of {} pieces up to {}, inclined by {}, rake {} in the mean",
+                    si_format(cutter.diameter, "m"), cutter.teeth(), edge->points().size() - 1,
+                    si_format(edge->top(), "m"), shown(inclination), shown(rake)));
+  } else
+    add("cutter", fmt::format("{}, {} teeth, helix {}", si_format(cutter.diameter, "m"), cutter.teeth(),
+                              shown(cutter.helix)));
   add("cut", fmt::format("{} deep, teeth cut from {} to {} deg", si_format(milling.axial_depth, "m"),
                          results::number_format(entry / degree), results::number_format(exit / degree)));
   add("speed",
@@ -315,6 +339,10 @@ Checked check_machining(const input::Case& input) {
     const double turns = milling.length / (milling.cut.feed * static_cast<double>(cutter.teeth()));
     add("path", fmt::format("{}, {} turns of {} steps", si_format(milling.length, "m"),
                             results::number_format(turns), dexels.steps));
+    if (!milling.passes.empty()) add("passes", tips_text(milling));
+    if (const auto left = workpiece_of_earlier_run(input))
+      add("workpiece", fmt::format("what {} has left, {} high in {} layers", milling.earlier_run,
+                                   si_format(left->height(), "m"), left->layers.size()));
     add("dexels", fmt::format("{} apart, {} layers", si_format(dexels.pitch, "m"), dexels.layers));
     checked.numbers.emplace_back("steps", turns * dexels.steps);
     return checked;

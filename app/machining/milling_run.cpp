@@ -1,9 +1,11 @@
 #include "app/machining/milling_run.hpp"
 
+#include "app/machining/left_workpiece.hpp"
 #include "app/machining/structure_modes.hpp"
 #include "core/error.hpp"
 #include "core/index.hpp"
 #include "input/case_machining.hpp"
+#include "input/left_workpiece.hpp"
 #include "report/picture_album.hpp"
 #include "report/surface_map.hpp"
 #include "results/file_queue.hpp"
@@ -34,6 +36,7 @@ const std::vector<std::string> history_columns{"time[s]",
                                                "z[m]",
                                                "axis_x[m]",
                                                "axis_y[m]",
+                                               "axis_z[m]",
                                                "energy.spindle[J]",
                                                "energy.feed[J]",
                                                "energy.cutting[J]",
@@ -44,7 +47,14 @@ const std::vector<std::string> history_columns{"time[s]",
                                                "energy.elastic[J]",
                                                "energy.residual[J]"};
 
-machining::ProcessSettings settings_of(const input::MachiningCase& milling) {
+machining::ProcessSettings settings_of(const input::Case& input) {
+  const input::MachiningCase& milling = *input.machining;
+  std::optional<machining::Blank> blank = milling.blank;
+  if (const auto left = workpiece_of_earlier_run(input))
+    blank = {.low = left->layers.front().low(),
+             .high = left->layers.front().high(),
+             .height = left->height(),
+             .left = left};
   return {.spindle = milling.speed,
           .axial_depth = milling.axial_depth,
           .length = milling.length,
@@ -54,7 +64,7 @@ machining::ProcessSettings settings_of(const input::MachiningCase& milling) {
           .layers = milling.dexels.layers,
           .steps = milling.dexels.steps,
           .passes = milling.passes,
-          .blank = milling.blank,
+          .blank = std::move(blank),
           .drive = milling.drive};
 }
 
@@ -125,9 +135,12 @@ void MillingRun::Course::archive(Archive& archive) {
 
 MillingRun::MillingRun(const input::Case& input, const RunOptions& options, RunObserver& observer,
                        bool goes_on)
+    : MillingRun(input, options, observer, goes_on, settings_of(input)) {}
+
+MillingRun::MillingRun(const input::Case& input, const RunOptions& options, RunObserver& observer,
+                       bool goes_on, const machining::ProcessSettings& settings)
     : SteppedRun(input, options, observer, goes_on, history_columns),
-      process_(input.machining->cut, modes_of_process(), settings_of(*input.machining),
-               flexible_part(input, settings_of(*input.machining))),
+      process_(input.machining->cut, modes_of_process(), settings, flexible_part(input, settings)),
       counts_(steady_turns(share_of_forces, infinite)), heard_(steady_turns(share_of_vibration, most_turns)),
       vibration_(input.machining->cut.cutter, input.machining->dexels.steps) {
   if (process_.part()) first_frequency_ = process_.part()->frequency();
@@ -138,6 +151,7 @@ void MillingRun::archive(Archive& archive) {
   process_.archive(archive);
   steady_.archive(archive);
   archive.number("run/still", "m", still_);
+  passes_.archive(archive);
   vibration_.archive(archive);
   archive.integer("run/unsettled_steps", unsettled_steps_);
   archive.number("run/unsettled", "m", unsettled_);
@@ -146,7 +160,9 @@ void MillingRun::archive(Archive& archive) {
 void MillingRun::advance() {
   const double step_dt = dt(), at = static_cast<double>(steps()) + 0.5;
   const Vec2 axis = process_.axis();
+  const double tip = process_.tip();
   const machining::ProcessStep step = made_step();
+  passes_.add(process_, step);
   if (steps() == process_.motion().passes().back().begin + 1) still_ = still_chips();
   if (counts_.holds(at)) steady_.add(step, step_dt);
   if (heard_.holds(at)) vibration_.add(step.force, step.displacement);
@@ -169,6 +185,7 @@ void MillingRun::advance() {
                        step.displacement.z(),
                        axis.x(),
                        axis.y(),
+                       tip,
                        ledger.spindle,
                        ledger.feed,
                        ledger.cutting,
@@ -274,6 +291,21 @@ void MillingRun::judge() {
                                 "radial depth: vibrations are not small beside the cut",
                                 si_format(steady.displacement, "m")))
              .what());
+  if (!milling.passes.empty()) {
+    status_.add_metric("milling.workpiece.before[m^3]", process_.block());
+    status_.add_metric("milling.workpiece.after[m^3]", process_.volume());
+  }
+  passes_.tell(process_.motion(), status_);
+  constexpr double rounding = 1e-6;
+  if (const auto [pass, depth] = passes_.deepest();
+      !modes_.empty() && depth > (1.0 + rounding) * milling.axial_depth)
+    warn(
+        input_
+            .error("milling.axial_depth",
+                   fmt::format("pass {} cuts {} deep, expected at most {}: for that depth lobes of this case "
+                               "are made",
+                               pass + 1, si_format(depth, "m"), si_format(milling.axial_depth, "m")))
+            .what());
   if (unsettled_steps_ > 0)
     warn(input_
              .error("dexels.steps",
@@ -307,6 +339,8 @@ void MillingRun::judge() {
 }
 
 void MillingRun::write_files() {
+  if (process_.motion().last_path())
+    results::write_atomically(options_.output / input::left_workpiece, left_workpiece_file(process_.left()));
   results::write_atomically(options_.output / results::files::machined_surface, surface_->csv());
   results::write_atomically(options_.output / results::files::machined_surface_grid, surface_->vtk());
   if (process_.motion().steady())

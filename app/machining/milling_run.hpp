@@ -1,6 +1,7 @@
 #pragma once
 // One milling cut in the time domain: forces, vibrations, and the surface that is left.
 #include "app/machining/machined_surface.hpp"
+#include "app/machining/pass_records.hpp"
 #include "app/machining/stepped_run.hpp"
 #include "machining/cut_vibration.hpp"
 #include "machining/milling_process.hpp"
@@ -15,6 +16,8 @@ public:
              bool goes_on = false);
 
 private:
+  MillingRun(const input::Case& input, const RunOptions& options, RunObserver& observer, bool goes_on,
+             const machining::ProcessSettings& settings);
   /// The largest and the mean of a part of the run.
   struct Course {
     Vec3 force = Vec3::Zero();     ///< N, largest of each component
@@ -56,6 +59,7 @@ private:
   machining::MillingProcess process_;
   Window counts_, heard_;        ///< turns that stand for forces, and for vibration
   Course steady_;                ///< of the last turns
+  PassRecords passes_;
   double still_ = 0.0;           ///< m, still_chips(); 0 before they are known
   double first_frequency_ = 0.0; ///< Hz, of a part that deforms, at first
 

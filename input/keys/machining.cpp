@@ -64,6 +64,13 @@ void add_cutter(Keys& k) {
       .unit(d::length)
       .in(positive)
       .example("\"2 mm\"");
+  k.add(
+      "cutter.rake_face", table,
+      "In the time domain, in place of `end`, `corner`, `helix` and `rake`: the rake face of a tooth from an "
+      "STL file, in axes of the cutter (z up along its axis, 0 at the tip; the tooth as it stands at first, "
+      "seen from +z clockwise from +y). The other teeth follow at their `pitch`. The edge is the outer side "
+      "of the face; its radius, length and angles are those of the triangles.");
+  add_stl(k, "cutter.rake_face", "\"rake.stl\"").of_space();
   k.add("cutter.run_out", quantity, "Distance from the axis of the spindle to that of the cutter.")
       .unit(d::length)
       .in(not_negative)
@@ -136,6 +143,13 @@ void add_passes(Keys& k) {
       "its right in down-milling. `milling.start` is `outside` then, or `hole`. The surface is told of the "
       "last one.");
   k.add(pass + "start", vector, "Of the axis.").unit(d::length).required().example("\"-8 0 mm\"");
+  k.add(
+       pass + "tip", quantity,
+       "Height of the tip of the cutter over the bottom of the workpiece, the same all along the pass: it is "
+       "lifted between passes. Ramps and plunges, on which its end cuts, are not known.")
+      .unit(d::length)
+      .in(not_negative)
+      .fallback("\"0 m\"");
   k.add(pass + "path", table_list, "Straight pieces and arcs, one behind the other.").required();
   k.add(pass + "path[].to", vector, "End of the piece; it begins where the one before ends.")
       .unit(d::length)
@@ -143,11 +157,24 @@ void add_passes(Keys& k) {
       .example("\"40 0 mm\"");
   add_arc(k, pass + "path[]");
   k.add("milling.workpiece", table,
-        "Of `milling.passes`: what there is before the first. Heights count from the tip of the cutter.");
-  k.add(blank + "from", vector, "A corner of a block as high as the cut is deep.")
+        "Of `milling.passes`: what there is before the first. Heights count from 0, where tips are "
+        "that are given no other place.");
+  k.add(blank + "height", quantity,
+        "Of a block; of other workpieces as far as they are looked at. Edges, but those of a "
+        "`cutter.rake_face`, are as long as it takes.")
       .unit(d::length)
-      .example("\"0 0 mm\"");
+      .in(positive)
+      .example("\"6 mm\"")
+      .computed("`milling.axial_depth` over the highest `tip` of a pass");
+  k.add(blank + "from", vector, "A corner of a block.").unit(d::length).example("\"0 0 mm\"");
   k.add(blank + "to", vector, "The opposite corner.").unit(d::length).example("\"40 20 mm\"");
+  k.add(blank + "run", text,
+        "In place of a block: the folder of an earlier run of `milling.passes`, seen from the folder of the "
+        "case. The workpiece is what it has left, in the same axes; the cutter goes on turning from where it "
+        "was.")
+      .example("\"../roughing/results\"");
+  k.add(blank + "content", text,
+        "Checksum of what that run has left, in resolved cases; another one is refused.");
   k.add(blank + "stl", table, "A closed surface from an STL file, in place of a block.");
   add_stl(k, blank + "stl", "\"blank.stl\"").of_space();
 }
@@ -164,7 +191,9 @@ void add_milling(Keys& k) {
       .unit(d::length)
       .required()
       .example("\"0.1 mm\"");
-  k.add("milling.axial_depth", quantity, "Along the axis of the cutter.")
+  k.add("milling.axial_depth", quantity,
+        "Along the axis of the cutter. With `milling.passes` what a pass cuts follows from them and the "
+        "workpiece.")
       .unit(d::length)
       .in(positive)
       .required()
@@ -201,7 +230,9 @@ void add_milling(Keys& k) {
       .in(positive)
       .example("\"10 um\"")
       .computed("a tenth of `milling.feed`");
-  k.add("dexels.layers", integer, "Along the axis of the cutter.")
+  k.add("dexels.layers", integer,
+        "Along the axis of the cutter, in `milling.axial_depth`; higher workpieces have as many more, each "
+        "`tip` of a pass lies between two.")
       .in({.low = 1, .high = 2000})
       .example("20")
       .computed("edges lag behind by at most 1 deg in a layer, which is at most a twentieth of a corner");
@@ -254,7 +285,8 @@ void add_shapes(Keys& k) {
         "modal mass stays. A wall that gets thinner.")
       .example("\"1 0.9 0.8\"");
   k.add("modes.*.height", quantities,
-        "In the time domain: heights over the tip of the cutter, increasing, for `shape_over_height`.")
+        "In the time domain: heights, increasing, for `shape_over_height`; of a tool over its tip, of a part "
+        "over 0, where tips are that are given no other place.")
       .unit(d::length)
       .example("\"0 18 mm\"");
   k.add("modes.*.shape_over_height", quantities,

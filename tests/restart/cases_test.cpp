@@ -51,9 +51,11 @@ std::vector<std::string> run_with_few_pictures(const fs::path& input, const fs::
     words.insert(words.end(), {"--set", "removal.duration=4 ms"});
   else if (is_milling(input)) {
     const auto machining = input::read_case((input / "case.toml").string()).machining;
-    words.insert(words.end(), {"--set", "stability.speeds=9", "--set", "stability.depths=10", "--set",
-                               "dexels.layers=90"}); // enough for threads to share
-    constexpr double turns = 12.0, longest = 1.2e-3; // m
+    const bool high = machining->blank && machining->blank->height > machining->axial_depth;
+    words.insert(words.end(),
+                 {"--set", "stability.speeds=9", "--set", "stability.depths=10", "--set",
+                  high ? "dexels.layers=45" : "dexels.layers=90"}); // enough for threads to share
+    constexpr double turns = 12.0, longest = 1.2e-3;                // m
     const double of_turn = machining->cut.feed * static_cast<double>(machining->cut.cutter.teeth());
     if (machining->passes.empty())
       words.insert(words.end(),

@@ -267,7 +267,8 @@ TEST(LocalOrigin, knows_every_key_with_a_place) {
   });
   // A part whose modes are sought has axes of its own, and so have milling cuts, which have no cloud.
   std::erase_if(found, [](const std::string& path) {
-    return path.starts_with("part.") || path.starts_with("milling.") || path.starts_with("removal.");
+    return path.starts_with("part.") || path.starts_with("milling.") || path.starts_with("cutter.") ||
+           path.starts_with("removal.");
   });
   // What a drawing is placed by is used before the case is read, in paths.
   std::erase_if(found, [](const std::string& path) {

@@ -80,7 +80,7 @@ TEST(Milling, LayersThatABallDoesNotReachHaveNoSurface) {
 
 TEST(Milling, PowerOfTheThinnestChipsIsFinite) {
   const MillingCut cut = milling_cut(1, 767e6, 0.0, down, 1.0);
-  const EdgeElements edges(cut, 1e-3, 1, full_turn / 360.0);
+  const EdgeElements edges(cut, slices(1e-3, 1e-3), 0.0, full_turn / 360.0);
   EdgeLoad load;
   edges.add(load, 0, 0, {.area = 1e-24, .begin = 0.0, .end = 1.0}, Vec3(1e-4, 0.0, 0.0), 1e-5, {}, {});
   EXPECT_TRUE(std::isfinite(load.power)) << load.power;

@@ -106,7 +106,7 @@ ProcessSettings through(std::vector<ToolPath> passes) {
           .layers = 2,
           .steps = 360,
           .passes = std::move(passes),
-          .blank = Blank{.low = Vec2(0.0, 0.0), .high = Vec2(20e-3, 10e-3)}};
+          .blank = Blank{.low = Vec2(0.0, 0.0), .high = Vec2(20e-3, 10e-3), .height = 1e-3}};
 }
 
 TEST(Passes, APassTakesWhatLiesInItsWay) {
@@ -166,7 +166,7 @@ TEST(Passes, AnArcIsCutAsASlotAroundIt) {
       .from = Vec2(ring, 0.0), .to = Vec2(0.0, ring), .centre = Vec2::Zero(), .radius = ring, .name = ""};
   ProcessSettings settings =
       through({ToolPath({line(Vec2(ring, -8e-3), arc.from), arc, line(arc.to, Vec2(-8e-3, ring))})});
-  settings.blank = Blank{.low = Vec2::Zero(), .high = Vec2(30e-3, 30e-3)};
+  settings.blank = Blank{.low = Vec2::Zero(), .high = Vec2(30e-3, 30e-3), .height = 1e-3};
   settings.layers = 1;
   MillingProcess process(cut, {}, settings);
   double power = 0.0, removed = 0.0;

@@ -1,0 +1,176 @@
+// Edges from rake faces of triangles, against cutters whose shape is known in closed form.
+#include "machining/cutting_edge.hpp"
+
+#include "core/error.hpp"
+#include "machining/milling_process.hpp"
+#include "tests/unit/machining/benchmarks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <numbers>
+
+namespace cnem::machining {
+namespace {
+
+constexpr double arc_degree = std::numbers::pi / 180.0;
+
+/// m, of the profile of a cutter at a height.
+double profile_radius(const Cutter& cutter, double z) {
+  if (z >= cutter.corner) return cutter.radius();
+  return cutter.radius() - cutter.corner +
+         std::sqrt(std::max(0.0, cutter.corner * cutter.corner - std::pow(cutter.corner - z, 2)));
+}
+
+/// Heights up to `top`: a arc_degree of the corner apart, then equal.
+std::vector<double> rows_of(const Cutter& cutter, double top, int rows) {
+  std::vector<double> z;
+  if (cutter.corner > 0.0)
+    for (int k = 0; k < 90 && cutter.corner * (1.0 - std::cos(k * arc_degree)) < top; ++k)
+      z.push_back(cutter.corner * (1.0 - std::cos(k * arc_degree)));
+  else
+    z.push_back(0.0);
+  const double from = std::min(cutter.corner, top);
+  if (from < top)
+    for (int k = cutter.corner > 0.0 ? 0 : 1; k <= rows; ++k) z.push_back(from + (top - from) * k / rows);
+  else
+    z.push_back(top);
+  return z;
+}
+
+/// The rake face of tooth 0, 1 mm deep, leaning back by an angle across the edge of a straight side.
+TriangleSurface rake_face(const Cutter& cutter, double top, double rake = 0.0, int rows = 24) {
+  TriangleSurface face;
+  for (const double z : rows_of(cutter, top, rows)) {
+    const double r = profile_radius(cutter, z), phi = -cutter.lag(z);
+    const Vec3 edge = r * outward(phi) + z * Vec3::UnitZ();
+    const double deep = std::min(r, 1e-3);
+    Vec3 inner = edge - deep * outward(phi);
+    if (rake != 0.0) {
+      const Vec3 motion(std::cos(phi), -std::sin(phi), 0.0);
+      const Vec3 across = std::cos(cutter.helix) * motion + std::sin(cutter.helix) * Vec3::UnitZ();
+      inner = edge - deep * (std::cos(rake) * outward(phi) + std::sin(rake) * across);
+    }
+    face.points.push_back(edge);
+    face.points.push_back(inner);
+  }
+  const auto add = [&](std::int32_t a, std::int32_t b, std::int32_t c) {
+    face.triangles.push_back({a, b, c});
+  };
+  for (std::int32_t k = 0; k + 3 < static_cast<std::int32_t>(face.points.size()); k += 2) {
+    add(k, k + 2, k + 1);
+    add(k + 1, k + 2, k + 3);
+  }
+  FacetSoup soup; // joins points on the axis at the tip
+  for (std::size_t t = 0; t < face.triangles.size(); ++t) soup.triangles.push_back({face.corners(t), 0});
+  return joined(soup);
+}
+
+Cutter formed(double corner) {
+  Cutter cutter;
+  cutter.diameter = 10e-3;
+  cutter.pitch = {2.0, 2.2, full_turn - 4.2};
+  cutter.helix = 30.0 * arc_degree;
+  cutter.corner = corner;
+  return cutter;
+}
+
+/// The same cutter by its rake face alone.
+Cutter traced(const Cutter& cutter, double top) {
+  Cutter other = cutter;
+  other.helix = other.corner = 0.0;
+  other.edge = std::make_shared<const CuttingEdge>(rake_face(cutter, top));
+  return other;
+}
+
+} // namespace
+
+TEST(CuttingEdge, HasRadiusLengthLeadAndLagOfItsCutter) {
+  for (const double corner : {0.0, 2e-3, 5e-3}) {
+    const Cutter cutter = formed(corner), other = traced(cutter, 6e-3);
+    EXPECT_NEAR(other.edge->radius(), cutter.radius(), 1e-12);
+    for (double low = 0.0; low < 4.4e-3; low += 0.25e-3) {
+      const double high = low + 0.25e-3;
+      EXPECT_NEAR(other.mean_radius(low, high), cutter.mean_radius(low, high), 1e-3 * cutter.radius()) << low;
+      EXPECT_NEAR(other.profile(low, high) / cutter.profile(low, high), 1.0, 2e-3) << corner << ' ' << low;
+      EXPECT_NEAR(other.lead(low, high), cutter.lead(low, high), 0.5 * arc_degree) << corner << ' ' << low;
+      EXPECT_NEAR(other.mean_lag(low, high), cutter.mean_lag(low, high), 0.01 * arc_degree)
+          << corner << ' ' << low;
+    }
+  }
+}
+
+TEST(CuttingEdge, AnglesAreThoseOfTheFace) {
+  const Cutter cutter = formed(0.0);
+  for (const int rows : {24, 96})
+    for (const double rake : {-10.0 * arc_degree, 0.0, 15.0 * arc_degree}) {
+      const CuttingEdge edge(rake_face(cutter, 6e-3, rake, rows));
+      const auto [inclination, found] = edge.angles(0.0, 6e-3);
+      EXPECT_NEAR(inclination, cutter.helix, 0.05 * arc_degree);
+      // A facet of a helical face leans by half of what the edge turns by along it.
+      EXPECT_NEAR(found, rake, 0.51 * std::cos(cutter.helix) * cutter.lag(6e-3 / rows));
+    }
+}
+
+TEST(CuttingEdge, CutsAsTheCutterThatItIsOf) {
+  LinearLaw law;
+  law.Ktc = 767e6;
+  law.Krc = 168.8e6;
+  law.Kac = 222e6;
+  law.Kte = 27.7e3;
+  law.Kre = 26.6e3;
+  for (const double corner : {0.0, 2e-3, 5e-3})
+    for (const double run_out : {0.0, 15e-6}) {
+      MillingCut cut;
+      cut.cutter = formed(corner);
+      cut.cutter.run_out = run_out;
+      cut.law = CuttingLaw(law);
+      cut.engagement = {Engagement::Side::down, 3e-3};
+      cut.feed = 1e-4;
+      MillingCut other = cut;
+      other.cutter = traced(cut.cutter, 6e-3);
+      const ProcessSettings settings{
+          .spindle = 800.0, .axial_depth = 3e-3, .length = 0.9e-3, .pitch = 1e-4, .layers = 20, .steps = 180};
+      MillingProcess known(cut, {}, settings), traced_one(other, {}, settings);
+      double most = 0.0, apart = 0.0, removed = 0.0, removed_too = 0.0, power = 0.0, power_too = 0.0;
+      while (!known.at_end()) {
+        const ProcessStep one = known.advance(), two = traced_one.advance();
+        if (known.steps() < 2 * settings.steps) continue; // earlier turns are told by one formula for both
+        most = std::max(most, one.force.norm());
+        apart = std::max(apart, (one.force - two.force).norm());
+        removed += one.removed;
+        removed_too += two.removed;
+        power += one.power;
+        power_too += two.power;
+      }
+      EXPECT_LT(apart, 0.01 * most) << corner << ' ' << run_out;
+      EXPECT_NEAR(removed_too / removed, 1.0, 1e-3) << corner << ' ' << run_out;
+      EXPECT_NEAR(power_too / power, 1.0, 1e-3) << corner << ' ' << run_out;
+    }
+}
+
+TEST(CuttingEdge, RefusesWhatIsNoRakeFace) {
+  const TriangleSurface good = rake_face(formed(0.0), 6e-3);
+  const auto refuse = [](const TriangleSurface& face, const char* why) {
+    try {
+      const CuttingEdge edge(face);
+      ADD_FAILURE() << why;
+    } catch (const GeometryError& error) {
+      EXPECT_NE(std::string(error.what()).find(why), std::string::npos) << error.what();
+    }
+  };
+  TriangleSurface face = good;
+  face.triangles.erase(face.triangles.begin() + 10);
+  face.triangles.erase(face.triangles.begin() + 11);
+  face.triangles.erase(face.triangles.begin() + 10);
+  refuse(face, "several pieces");
+  face = good;
+  std::swap(face.triangles[7][0], face.triangles[7][1]);
+  refuse(face, "more than one way");
+  face = good;
+  for (Vec3& x : face.points)
+    if (x.z() > 2e-3 && x.z() < 2.3e-3 && x.head<2>().norm() > 4.9e-3) x.z() += 0.6e-3;
+  refuse(face, "does not rise");
+}
+
+} // namespace cnem::machining
