@@ -103,6 +103,7 @@ void Adaptation::resume_log(const std::filesystem::path& folder) {
 adapt::NodeProperties Adaptation::properties(const ExplicitSolver<2>& solver, Field wanted) const {
   adapt::NodeProperties properties = node_properties(*input_, solver, std::move(wanted));
   properties.held.assign(corner_.begin(), corner_.end());
+  if (const auto& body = solver.conditions().cloud.body; !body.empty()) properties.part = body;
   return properties;
 }
 

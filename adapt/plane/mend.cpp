@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace cnem::adapt {
 
@@ -149,12 +150,20 @@ bool give_to_boundary(WorkingCloud& work, const IndexedVector<NodeIndex, char>& 
 
 void drop_outside(WorkingCloud& work, PassReport& report) {
   const Cloud<2>& cloud = work.cloud();
-  const voronoi::EdgeTree tree(cloud);
+  std::map<std::int32_t, voronoi::EdgeTree> trees; // of the boundary of each body
+  const auto body_of = [&](NodeIndex i) { return cloud.body.empty() ? 0 : cloud.body[i]; };
+  for (const Facet<2>& facet : cloud.facets)
+    if (const std::int32_t body = body_of(facet.node[0]); !trees.contains(body)) {
+      Cloud<2> own = cloud;
+      std::erase_if(own.facets, [&](const Facet<2>& f) { return body_of(f.node[0]) != body; });
+      trees.emplace(body, own);
+    }
   IndexedVector<NodeIndex, char> gone(work.size(), 0);
   for_each_block(work.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (work.on_boundary(as<NodeIndex>(i))) continue;
       const Vec2& x = cloud.position[i];
+      const voronoi::EdgeTree& tree = trees.at(body_of(as<NodeIndex>(i)));
       const double touching = 1e-6 * work.node().size[i];
       gone[i] = tree.distance(x, touching) < touching || !tree.inside(x);
     }
