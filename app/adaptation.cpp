@@ -103,7 +103,6 @@ void Adaptation::resume_log(const std::filesystem::path& folder) {
 adapt::NodeProperties Adaptation::properties(const ExplicitSolver<2>& solver, Field wanted) const {
   adapt::NodeProperties properties = node_properties(*input_, solver, std::move(wanted));
   properties.held.assign(corner_.begin(), corner_.end());
-  if (const auto& body = solver.conditions().cloud.body; !body.empty()) properties.part = body;
   return properties;
 }
 
@@ -283,6 +282,7 @@ std::vector<std::pair<std::string, double>> Adaptation::metrics() const {
            {"adapt.cuts", total_.cuts},
            {"adapt.opened", total_.opened},
            {"adapt.films", total_.films},
+           {"adapt.crumbs", total_.crumbs},
            {"adapt.folded", total_.folded},
            {"adapt.outside", total_.outside},
            {"adapt.removed", total_.removed},
@@ -326,6 +326,7 @@ void Adaptation::archive(Archive& archive) {
                               {"cuts", &total_.cuts},
                               {"opened", &total_.opened},
                               {"films", &total_.films},
+                              {"crumbs", &total_.crumbs},
                               {"folded", &total_.folded},
                               {"outside", &total_.outside},
                               {"removed", &total_.removed},

@@ -125,7 +125,7 @@ bool give_to_boundary(WorkingCloud& work, const IndexedVector<NodeIndex, char>& 
     Parcel to_start{i, NodeIndex::none, 1.0}, to_end = to_start;
     for (const Facet<2>& facet : cloud.facets) {
       const auto [a, b] = facet.node;
-      if (!work.may_mix(i, a)) continue;
+      if (!work.may_mix(i, a) || !cloud.one_body(i, a)) continue;
       const Foot foot = foot_on(cloud.position[i], cloud.position[a], cloud.position[b]);
       if (foot.distance >= best) continue;
       best = foot.distance;
@@ -188,7 +188,7 @@ void drop_strayed(WorkingCloud& work, Structure& structure, PassReport& report) 
         front.push_back(next);
       }
   IndexedVector<NodeIndex, char> gone(work.size(), 0);
-  for (const NodeIndex i : front) gone[i] = !work.may_mix(i, from[i]);
+  for (const NodeIndex i : front) gone[i] = !work.may_mix(i, from[i]) || !work.cloud().one_body(i, from[i]);
   if (give_to_boundary(work, gone, report)) structure = build_structure(work.cloud(), structure.space);
 }
 

@@ -141,6 +141,7 @@ void WorkingCloud::pass_by(NodeIndex node) {
   if (piece_[node] == free_piece_) piece_[a] = free_piece_;
   next_[a] = b;
   previous_[b] = a;
+  if (b == node) std::erase(loop_, node); // the last of its loop
   for (NodeIndex& start : loop_)
     if (start == node) start = b;
   next_[node] = previous_[node] = facing_[node] = NodeIndex::none;
