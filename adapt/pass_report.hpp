@@ -10,7 +10,7 @@ struct PassReport {
   int cuts = 0;     ///< paths, in space surfaces, through broken matter that were opened
   int opened = 0;   ///< edges, in space facets, of these
   int films = 0;    ///< cuts among them at the waists of films
-  int crumbs = 0;   ///< bodies thinner than films may be that joined what they lay on
+  int crumbs = 0;   ///< bodies thinner than films may be that joined others
   int folded = 0;   ///< boundary nodes at which the boundary turned back on itself or crossed
   int outside = 0;  ///< interior nodes found outside the boundary, or in another part
   int removed = 0, removed_boundary = 0;

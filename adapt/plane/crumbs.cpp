@@ -41,18 +41,24 @@ bool is_crumb(const WorkingCloud& work, const Structure& structure, const std::v
   return twice > 0.0 && twice < thickness * length;
 }
 
-/// The nearest node at the boundary of other matter of the same part, no farther away than its spacing.
-NodeIndex host_of(const WorkingCloud& work, NodeIndex crumb, const std::vector<NodeIndex>& loop) {
+/// The nearest node at the boundary of other matter of the same part that is to stay, no farther from a node
+/// of the crumb than its spacing and the extent of the crumb; none where there is none.
+NodeIndex host_of(const WorkingCloud& work, const std::vector<NodeIndex>& crumb,
+                  const IndexedVector<NodeIndex, char>& gone) {
+  const auto& at = work.cloud().position;
+  double extent = 0.0;
+  for (const NodeIndex i : crumb)
+    for (const NodeIndex k : crumb) extent = std::max(extent, (at[k] - at[i]).norm());
   double nearest = std::numeric_limits<double>::infinity();
   NodeIndex host = NodeIndex::none;
   for (const NodeIndex k : work.nodes()) {
-    if (!work.on_boundary(k) || !work.may_mix(crumb, k)) continue;
-    const double distance = (work.cloud().position[k] - work.cloud().position[crumb]).norm();
-    if (distance >= std::min(nearest, work.node().size[index_of(k)]) ||
-        std::find(loop.begin(), loop.end(), k) != loop.end())
-      continue;
-    nearest = distance;
-    host = k;
+    if (!work.on_boundary(k) || gone[k] || !work.may_mix(crumb.front(), k)) continue;
+    for (const NodeIndex i : crumb) {
+      const double distance = (at[k] - at[i]).norm();
+      if (distance >= std::min(nearest, work.node().size[index_of(k)] + extent)) continue;
+      nearest = distance;
+      host = k;
+    }
   }
   return host;
 }
@@ -74,17 +80,14 @@ void join_crumbs(WorkingCloud& work, Structure& structure, const SplitRules& rul
     for (const NodeIndex i : loop) gone[i] = 1;
   int count = 0;
   for (const std::vector<NodeIndex>& loop : crumbs) {
-    std::vector<NodeIndex> host;
-    for (const NodeIndex i : loop) host.push_back(host_of(work, i, loop));
-    const bool stays =
-        std::any_of(host.begin(), host.end(), [&](NodeIndex k) { return !exists(k) || gone[k] != 0; });
-    for (std::size_t k = 0; k < loop.size(); ++k) {
-      gone[loop[k]] = !stays;
-      if (stays) continue;
-      joined.move_now(loop[k], host[k], 1.0);
-      joined.bypass(loop[k]);
+    const NodeIndex host = host_of(work, loop, gone);
+    for (const NodeIndex i : loop) {
+      gone[i] = exists(host);
+      if (!exists(host)) continue;
+      joined.move_now(i, host, 1.0);
+      joined.bypass(i);
     }
-    count += !stays;
+    count += exists(host);
   }
   if (count == 0) return;
   joined.drop(gone);

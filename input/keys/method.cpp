@@ -143,7 +143,7 @@ void add_adaptation(Keys& k) {
         "this "
         "is cut at its waist though it is not broken: what it still bore is lost, its thickness times its "
         "flow stress. Ductile matter that no damage parts is else drawn out without end. Crumbs as thin join "
-        "what they lie on. 0: none.")
+        "what is near. 0: none.")
       .unit(d::length)
       .in(not_negative)
       .fallback("\"0 m\"")

@@ -117,7 +117,7 @@ Blank with_crumb(double above) {
   return b;
 }
 
-TEST(Film, crumbs_of_it_join_what_they_lie_on) {
+TEST(Film, crumbs_of_it_join_what_is_near) {
   for (const auto& [above, thinnest, crumbs] :
        {std::tuple{0.1 * h, 0.1 * h, 1}, {0.1 * h, 0.02 * h, 0}, {0.1 * h, 0.0, 0}, {2.0 * h, 0.1 * h, 0}}) {
     const Blank b = with_crumb(above);
