@@ -42,8 +42,9 @@ struct FacetView {
   Vec2 nearest(const Vec2& x) const { return a + std::clamp(place(x), 0.0, 1.0) * edge; }
 };
 
-/// Cosine between normals below which two facets face each other. A node counts where one of its facets does:
-/// else a body that slides on another would be stopped by the nodes ahead of the dent it makes.
+/// Cosine between normals below which two facets face each other. A node counts where one of its facets does,
+/// or at a tip a direction between both: else a body that slides on another would be stopped by the nodes
+/// ahead of the dent it makes.
 constexpr double facing = -0.25;
 
 bool faces(const Surface<2>& surface, BoundaryNodeIndex node, const Vec2& normal,
@@ -51,7 +52,12 @@ bool faces(const Surface<2>& surface, BoundaryNodeIndex node, const Vec2& normal
   const auto against = [&](FacetIndex facet) {
     return exists(facet) && FacetView(surface, facet, position).normal.dot(normal) < facing;
   };
-  return against(surface.entering[node]) || against(surface.leaving[node]);
+  const FacetIndex in = surface.entering[node], out = surface.leaving[node];
+  if (against(in) || against(out)) return true;
+  if (!exists(in) || !exists(out)) return false;
+  // a tip may face what neither of its facets faces
+  const Vec2 from = FacetView(surface, in, position).normal, to = FacetView(surface, out, position).normal;
+  return cross(from, to) > 0.0 && cross(normal, from) > 0.0 && cross(to, normal) > 0.0;
 }
 
 /// How often the boundary runs round x: the number of bodies there.
@@ -114,19 +120,15 @@ void BodyContact<dim>::set_boundary(const Surface<dim>& surface,
   listed_.clear();
 }
 
-template<int dim> bool BodyContact<dim>::bonded(const Surface<dim>& surface, FacetIndex facet) const {
+template<int dim> bool BodyContact<dim>::tied(const Surface<dim>& surface, FacetIndex facet) const {
   if (!exists(facet)) return true;
-  if (!bonds_.empty() && bonds_.covered[as<CloudFacetIndex>(index_of(facet))]) return true;
   const auto& ends = surface.facets[facet];
   return std::all_of(ends.begin(), ends.end(), [&](BoundaryNodeIndex b) { return group_[b] >= 0; });
 }
 
 template<int dim>
 bool BodyContact<dim>::related(const Surface<dim>& surface, BoundaryNodeIndex node, FacetIndex facet) const {
-  if (!bonds_.empty()) {
-    const std::int32_t face = bonds_.bonded[surface.node[node]];
-    if (face >= 0 && bonds_.face[as<CloudFacetIndex>(index_of(facet))] == (face ^ 1)) return true;
-  }
+  if (bonds_.joins(surface.node[node], as<CloudFacetIndex>(index_of(facet)))) return true;
   return std::any_of(surface.facets[facet].begin(), surface.facets[facet].end(), [&](BoundaryNodeIndex end) {
     return end == node || (group_[node] >= 0 && group_[end] == group_[node]);
   });
@@ -138,31 +140,30 @@ template<> void BodyContact<2>::list(const Surface<2>& surface) {
   Vec2 low = listed_.front(), high = low;
   for (const Vec2& x : listed_) low = low.cwiseMin(x), high = high.cwiseMax(x);
   size_ = (high - low).norm();
-  // What a bond covers is a surface too: where it has opened, others than its partner come between.
-  const auto tied = [&](const auto& ends) {
-    return std::all_of(ends.begin(), ends.end(), [&](BoundaryNodeIndex b) { return group_[b] >= 0; });
-  };
   std::vector<std::pair<TreeBox, FacetIndex>> boxes;
   double total = 0.0;
   for (const FacetIndex f : surface.facets.indices()) {
     const auto& ends = surface.facets[f];
     const Vec2 &a = listed_[ends[0]], &b = listed_[ends[1]];
     total += (b - a).norm();
-    if (!tied(ends)) boxes.emplace_back(box_around(a.cwiseMin(b), a.cwiseMax(b), 0.0), f);
+    if (!tied(surface, f)) boxes.emplace_back(box_around(a.cwiseMin(b), a.cwiseMax(b), 0.0), f);
   }
   skin_ = skin_of_facets * total / static_cast<double>(std::max<std::size_t>(surface.facets.size(), 1));
   const Tree tree(boxes);
   std::vector<std::pair<TreeBox, FacetIndex>> near;
   for (const BoundaryNodeIndex b : listed_.indices()) {
-    if (bonded(surface, surface.entering[b]) && bonded(surface, surface.leaving[b])) continue;
+    if (tied(surface, surface.entering[b]) && tied(surface, surface.leaving[b])) continue;
     near.clear();
-    tree.query(bg::index::intersects(box_around(listed_[b], listed_[b], skin_)), std::back_inserter(near));
+    const double pressed = bonds_.empty() ? 0.0 : bonds_.pressed[surface.node[b]];
+    tree.query(bg::index::intersects(box_around(listed_[b], listed_[b], skin_ + pressed)),
+               std::back_inserter(near));
     std::sort(near.begin(), near.end(), [](const auto& p, const auto& q) { return p.second < q.second; });
     for (const auto& [box, f] : near) {
       if (related(surface, b, f)) continue;
       const FacetView facet(surface, f, listed_);
       const Vec2 foot = facet.nearest(listed_[b]);
-      if ((foot - listed_[b]).norm() > skin_) continue;
+      const double reach = skin_ + (were_bonded(bonds_, surface, b, f) ? pressed : 0.0);
+      if ((foot - listed_[b]).norm() > reach) continue;
       if (facet.gap(listed_[b]) < -rounding * facet.length) {
         const int bodies = winding_number(surface, listed_, 0.5 * (foot + listed_[b]));
         const double place = facet.place(listed_[b]);
@@ -216,8 +217,9 @@ void BodyContact<2>::find(const Surface<2>& surface, PlacesOnBoundary<2> start, 
         const double when = gap_before > 0.0 ? gap_before / (gap_before - gap) : 0.0;
         const double there = (1.0 - when) * before.place(start[b]) + when * place;
         if (there >= -overhang && there <= 1.0 + overhang) crossed.push_back({hit, when});
-      } else if (place >= 0.0 && place <= 1.0 && -gap < std::min(depth, skin_)) {
-        depth = -gap;
+      } else if (const double deep = hit.clearance - now.gap(end[b]); // besides what stays
+                 place >= 0.0 && place <= 1.0 && deep < std::min(depth, skin_)) {
+        depth = deep;
         inside = hit;
       }
     }

@@ -52,9 +52,9 @@ public:
   /// between tied nodes are no surface. Empty: none is tied.
   void set_boundary(const Surface<dim>& surface, IndexedSpan<NodeIndex, const std::int32_t> group);
 
-  /// Faces that are bonded to each other: nodes between facets that the other face covers meet nothing,
-  /// bonded nodes do not meet the other face of their interface, and where a bond broke, what had pressed it
-  /// stays. Until the next boundary, or bonds.
+  /// Faces that are bonded to each other: a bonded node does not meet the other face of its interface about
+  /// where it is bonded, and where a bond broke, what had pressed it stays. Until the next boundary, or
+  /// bonds.
   void set_bonds(const Bonds& bonds) {
     bonds_ = bonds;
     listed_.clear();
@@ -86,7 +86,7 @@ private:
   };
   void list(const Surface<dim>& surface);
   bool related(const Surface<dim>& surface, BoundaryNodeIndex node, FacetIndex facet) const;
-  bool bonded(const Surface<dim>& surface, FacetIndex facet) const;
+  bool tied(const Surface<dim>& surface, FacetIndex facet) const;
 
   IndexedVector<BoundaryNodeIndex, std::int32_t> group_; ///< −1: free
   Bonds bonds_;

@@ -214,11 +214,11 @@ template<> void BodyContact<3>::list(const Surface<3>& surface) {
   };
   for (const BoundaryNodeIndex b : listed_.indices()) {
     const auto& around = surface.around[b];
-    if (std::all_of(around.begin(), around.end(), [&](FacetIndex f) { return bonded(surface, f); })) continue;
+    if (std::all_of(around.begin(), around.end(), [&](FacetIndex f) { return tied(surface, f); })) continue;
     find_near(facets, box_of(listed_, std::array{b}, skin_));
     for (const std::int32_t i : near) {
       const auto f = as<FacetIndex>(i);
-      if (bonded(surface, f) || related(surface, b, f)) continue;
+      if (tied(surface, f) || related(surface, b, f)) continue;
       const FacetView facet(surface, f, listed_);
       const Vec3 foot = facet.nearest(listed_[b]);
       if ((foot - listed_[b]).norm() > skin_) continue;
@@ -232,16 +232,16 @@ template<> void BodyContact<3>::list(const Surface<3>& surface) {
   for (const SurfaceEdge& edge : surface.edges)
     boxes.push_back(box_of(listed_, std::span(edge.node).first(2), 0.0));
   const BoxTree edges(std::move(boxes));
-  const auto tied = [&](const SurfaceEdge& edge) {
-    return bonded(surface, edge.facet[0]) && bonded(surface, edge.facet[1]);
+  const auto edge_tied = [&](const SurfaceEdge& edge) {
+    return tied(surface, edge.facet[0]) && tied(surface, edge.facet[1]);
   };
   for (const SurfaceEdgeIndex e : surface.edges.indices()) {
     const SurfaceEdge& one = surface.edges[e];
-    if (tied(one)) continue;
+    if (edge_tied(one)) continue;
     find_near(edges, box_of(listed_, std::span(one.node).first(2), skin_));
     for (const std::int32_t i : near) {
       const auto o = as<SurfaceEdgeIndex>(i);
-      if (o <= e || tied(surface.edges[o])) continue;
+      if (o <= e || edge_tied(surface.edges[o])) continue;
       const SurfaceEdge& other = surface.edges[o];
       const auto same = [&](BoundaryNodeIndex p, BoundaryNodeIndex q) {
         return p == q || (group_[p] >= 0 && group_[p] == group_[q]);

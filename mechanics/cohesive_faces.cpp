@@ -125,10 +125,7 @@ double CohesiveFaces::broken_length(const CohesiveInterface& interface) {
 contact::Bonds CohesiveFaces::bonds(const Cloud<2>& cloud) const {
   contact::Bonds bonds;
   if (interface_.empty() || !left_to_contact_) return bonds;
-  bonds.face.assign(cloud.facets.size(), -1);
-  bonds.covered.assign(cloud.facets.size(), 0);
-  bonds.bonded.assign(cloud.position.size(), -1);
-  bonds.pressed.assign(cloud.position.size(), 0.0);
+  bonds.rest(cloud.position.size(), cloud.facets.size());
   IndexedVector<NodeIndex, CloudFacetIndex> leaving(cloud.position.size(), CloudFacetIndex::none);
   for (const CloudFacetIndex f : cloud.facets.indices()) leaving[cloud.facets[f].node[0]] = f;
   for (std::size_t i = 0; i < interface_.size(); ++i)
@@ -137,7 +134,7 @@ contact::Bonds CohesiveFaces::bonds(const Cloud<2>& cloud) const {
       for (const BondedSegment& segment : interface_[i].face[s]) {
         const CloudFacetIndex f = leaving[segment.node[s == 0 ? 0 : 1]];
         bonds.face[f] = number;
-        bonds.covered[f] = 1;
+        bonds.arc[f] = segment.arc;
       }
       for (std::size_t e = 0; e < interface_[i].element.size(); ++e) {
         const CohesiveElement& element = interface_[i].element[e];
@@ -146,7 +143,6 @@ contact::Bonds CohesiveFaces::bonds(const Cloud<2>& cloud) const {
           const CohesiveEnd& state = interface_[i].state[e][end];
           const auto values = element.values(s, end);
           if (state.damage >= 1.0) {
-            bonds.covered[leaving[segment.node[s == 0 ? 0 : 1]]] = 0;
             for (std::size_t a = 0; a < 2; ++a)
               if (values[a] > 0.0) {
                 double& pressed = bonds.pressed[segment.node[a]];
@@ -155,7 +151,14 @@ contact::Bonds CohesiveFaces::bonds(const Cloud<2>& cloud) const {
             continue;
           }
           for (std::size_t a = 0; a < 2; ++a)
-            if (values[a] > 0.5) bonds.bonded[segment.node[a]] = number;
+            if (values[a] > 0.5) {
+              const NodeIndex node = segment.node[a];
+              const double slid = state.separation.norm();
+              if (std::exchange(bonds.bonded[node], number) != number)
+                bonds.reach[node] = {segment.arc[a], segment.arc[a]};
+              bonds.reach[node][0] = std::min(bonds.reach[node][0], segment.arc[a] - slid);
+              bonds.reach[node][1] = std::max(bonds.reach[node][1], segment.arc[a] + slid);
+            }
         }
       }
     }

@@ -11,6 +11,7 @@ namespace cnem {
 /// The nodes themselves, once resampling has made them other than those of the case.
 template<int dim> void ExplicitSolver<dim>::archive_cloud(Archive& archive) {
   archive.integer("solver/resamplings", resamplings_);
+  archive.integers("solver/cloud/body", conditions_.cloud.body);
   if (resamplings_ == 0) return;
   NodeState<dim>& node = state_.node;
   std::vector<std::int32_t> facets;

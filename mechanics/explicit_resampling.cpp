@@ -7,6 +7,7 @@
 #include "mechanics/mixing.hpp"
 #include "mechanics/node_heat.hpp"
 #include "mechanics/ply_mixing.hpp"
+#include "mechanics/statics/rigid_motion.hpp"
 
 #include <cassert>
 
@@ -138,6 +139,9 @@ template<int dim> void ExplicitSolver<dim>::carry_nodes(const Resampling<dim>& c
 
 template<int dim> std::string ExplicitSolver<dim>::part_faces() requires(dim == 2) {
   if (conditions_.cohesive.empty()) return "";
+  conditions_.cloud.body.clear();
+  for (const std::size_t first : parts_of(approximation_->mechanics, state_.node.size()))
+    conditions_.cloud.body.push_back(as<std::int32_t>(first));
   const CohesiveInterface* left = conditions_.cohesive.part(state_.node.position); // with their offsets
   part_boundary(conditions_.cloud, state_.node.position);
   conditions_.contact.set_bonds(conditions_.cohesive.bonds(conditions_.cloud));

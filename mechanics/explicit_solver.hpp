@@ -50,9 +50,9 @@ public:
   /// node.
   void prepare(const Resampling<dim>& change);
 
-  /// Sets faces of cohesive interfaces that are pressed into each other apart, by less than a thousandth of
-  /// an element, before a cloud is made of the present configuration; what they bear stays. Returns the name
-  /// of an interface where that was not possible; empty: none.
+  /// Before a cloud is made of the present configuration of a body with cohesive interfaces: tells the bodies
+  /// that it is of (Cloud::body), and sets faces that are pressed into each other apart; what they bear
+  /// stays. Returns the name of an interface where that was not possible; empty: none.
   std::string part_faces() requires(dim == 2);
 
   /// Replaces the supports from the next step on; the work of those before stays in the ledger. For motion

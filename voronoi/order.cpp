@@ -100,6 +100,7 @@ template<int dim> Cloud<dim> renumber(const Cloud<dim>& cloud, const std::vector
     new_of_old[old] = as<NodeIndex>(i);
     result.position[i] = cloud.position[old];
   }
+  for (std::size_t i = 0; i < cloud.body.size(); ++i) result.body[i] = cloud.body[index_of(order[i])];
   const auto rename = [&](NodeIndex& node) { node = new_of_old[node]; };
   for (auto& facet : result.facets)
     for (auto& node : facet.node) rename(node);

@@ -49,11 +49,14 @@ bool CloudEdit::renumber(Resampling<2>& change) {
   cloud.facets.clear();
   cloud.simplices.clear();
   cloud.across.clear();
+  cloud.body.clear();
   IndexedVector<NodeIndex, NodeIndex> number(place_.size(), NodeIndex::none);
   for (const NodeIndex i : place_.indices()) {
     if (gone(i)) continue;
     number[i] = cloud.position.next();
     cloud.position.push_back(place_[i]);
+    if (!before_.body.empty())
+      cloud.body.push_back(before_.body[is_old(i) ? i : made_[index_of(i) - before_.position.size()].like]);
     kept_.push_back(i);
   }
   IndexedVector<NodeIndex, CloudFacetIndex> leaving(place_.size(), CloudFacetIndex::none);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace cnem::adapt {
 
@@ -124,7 +125,7 @@ bool give_to_boundary(WorkingCloud& work, const IndexedVector<NodeIndex, char>& 
     Parcel to_start{i, NodeIndex::none, 1.0}, to_end = to_start;
     for (const Facet<2>& facet : cloud.facets) {
       const auto [a, b] = facet.node;
-      if (!work.may_mix(i, a)) continue;
+      if (!work.may_mix(i, a) || !cloud.one_body(i, a)) continue;
       const Foot foot = foot_on(cloud.position[i], cloud.position[a], cloud.position[b]);
       if (foot.distance >= best) continue;
       best = foot.distance;
@@ -149,12 +150,20 @@ bool give_to_boundary(WorkingCloud& work, const IndexedVector<NodeIndex, char>& 
 
 void drop_outside(WorkingCloud& work, PassReport& report) {
   const Cloud<2>& cloud = work.cloud();
-  const voronoi::EdgeTree tree(cloud);
+  std::map<std::int32_t, voronoi::EdgeTree> trees; // of the boundary of each body
+  const auto body_of = [&](NodeIndex i) { return cloud.body.empty() ? 0 : cloud.body[i]; };
+  for (const Facet<2>& facet : cloud.facets)
+    if (const std::int32_t body = body_of(facet.node[0]); !trees.contains(body)) {
+      Cloud<2> own = cloud;
+      std::erase_if(own.facets, [&](const Facet<2>& f) { return body_of(f.node[0]) != body; });
+      trees.emplace(body, own);
+    }
   IndexedVector<NodeIndex, char> gone(work.size(), 0);
   for_each_block(work.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (work.on_boundary(as<NodeIndex>(i))) continue;
       const Vec2& x = cloud.position[i];
+      const voronoi::EdgeTree& tree = trees.at(body_of(as<NodeIndex>(i)));
       const double touching = 1e-6 * work.node().size[i];
       gone[i] = tree.distance(x, touching) < touching || !tree.inside(x);
     }
@@ -179,7 +188,7 @@ void drop_strayed(WorkingCloud& work, Structure& structure, PassReport& report) 
         front.push_back(next);
       }
   IndexedVector<NodeIndex, char> gone(work.size(), 0);
-  for (const NodeIndex i : front) gone[i] = !work.may_mix(i, from[i]);
+  for (const NodeIndex i : front) gone[i] = !work.may_mix(i, from[i]) || !work.cloud().one_body(i, from[i]);
   if (give_to_boundary(work, gone, report)) structure = build_structure(work.cloud(), structure.space);
 }
 

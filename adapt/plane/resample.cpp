@@ -30,6 +30,7 @@ Resampling<2> resample(const Cloud<2>& cloud, std::optional<Structure> structure
   }
   drop_strayed(work, *structure, report);
   if (!work.node().broken.empty()) {
+    join_crumbs(work, *structure, rules.split, report);
     split(work, *structure, rules.split, report);
     if (rules.split.cracks) open_cracks(work, *structure, rules.split, report);
     cut_films(work, *structure, rules.split, report);

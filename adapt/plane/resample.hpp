@@ -97,6 +97,11 @@ void open_cracks(WorkingCloud& work, Structure& structure, const SplitRules& rul
 /// Cuts films, between two parts of the boundary that no interior node keeps apart, at their waists: those of
 /// broken matter, and those thinner than SplitRules::thinnest_film. Matter is shared out as by split().
 void cut_films(WorkingCloud& work, Structure& structure, const SplitRules& rules, PassReport& report);
+/// Crumbs, bodies of at most SplitRules::least_loop nodes, none of them inside, and thinner than
+/// SplitRules::thinnest_film, go to the nearest node of the boundary of the same part, as far away as its
+/// spacing and the extent of the crumb at most: cells of theirs, pressed between tools and bodies, mean
+/// nothing. What has none stays. Nothing is deleted.
+void join_crumbs(WorkingCloud& work, Structure& structure, const SplitRules& rules, PassReport& report);
 /// One round; false when there was nothing to do, or it was undone because the cloud would have had no valid
 /// structure.
 bool thin(WorkingCloud& work, Structure& structure, const Thresholds& thresholds, PassReport& report);

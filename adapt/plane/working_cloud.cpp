@@ -39,6 +39,10 @@ WorkingCloud::WorkingCloud(const Cloud<2>& cloud, NodeProperties properties, Pie
 NodeIndex WorkingCloud::append(const Vec2& x, const std::vector<std::pair<NodeIndex, double>>& parents) {
   const NodeIndex made = cloud_.position.next();
   cloud_.position.push_back(x);
+  if (!cloud_.body.empty()) {
+    const std::int32_t body = cloud_.body[parents.front().first];
+    cloud_.body.push_back(body);
+  }
   begin_with({}, {});
   Matter::append(parents);
   next_.push_back(NodeIndex::none);
@@ -137,6 +141,7 @@ void WorkingCloud::pass_by(NodeIndex node) {
   if (piece_[node] == free_piece_) piece_[a] = free_piece_;
   next_[a] = b;
   previous_[b] = a;
+  if (b == node) std::erase(loop_, node); // the last of its loop
   for (NodeIndex& start : loop_)
     if (start == node) start = b;
   next_[node] = previous_[node] = facing_[node] = NodeIndex::none;
@@ -227,6 +232,7 @@ IndexedVector<NodeIndex, NodeIndex> WorkingCloud::drop(const IndexedVector<NodeI
   begin_with({}, {});
   Matter::drop(gone);
   compact(number, cloud_.position);
+  if (!cloud_.body.empty()) compact(number, cloud_.body);
   for (auto* list : {&next_, &previous_, &facing_}) {
     compact(number, *list);
     for (NodeIndex& i : *list) rename(i);

@@ -142,7 +142,8 @@ void add_adaptation(Keys& k) {
         "With `adapt.separate` a film, matter between two faces with no node inside, that is thinner than "
         "this "
         "is cut at its waist though it is not broken: what it still bore is lost, its thickness times its "
-        "flow stress. Ductile matter that no damage parts is else drawn out without end. 0: none.")
+        "flow stress. Ductile matter that no damage parts is else drawn out without end. Crumbs as thin join "
+        "what is near. 0: none.")
       .unit(d::length)
       .in(not_negative)
       .fallback("\"0 m\"")

@@ -5,6 +5,7 @@
 #include "tests/index_literals.hpp"
 
 #include <gtest/gtest.h>
+#include <tuple>
 
 namespace cnem::adapt {
 
@@ -104,6 +105,53 @@ TEST(Film, thinner_than_the_thinnest_is_cut_though_it_is_whole) {
     EXPECT_EQ(testing::loops(change.cloud), 1 + films) << thinnest;
     expect_all_handed_on(change, b.node.mass.size());
   }
+}
+
+/// A crumb of four nodes, 0.05 h thick, above the middle of a blank, by this much.
+Blank with_crumb(double above) {
+  Blank b = blank(h);
+  const double low = 0.6 + above;
+  testing::add_loop(b.cloud, {{0.45, low}, {0.53, low}, {0.53, low + 0.05 * h}, {0.45, low + 0.05 * h}}, h);
+  b.weigh(h);
+  b.node.broken.assign(b.node.mass.size(), 0.0);
+  return b;
+}
+
+TEST(Film, crumbs_of_it_join_what_is_near) {
+  for (const auto& [above, thinnest, crumbs] :
+       {std::tuple{0.1 * h, 0.1 * h, 1}, {0.1 * h, 0.02 * h, 0}, {0.1 * h, 0.0, 0}, {2.0 * h, 0.1 * h, 0}}) {
+    const Blank b = with_crumb(above);
+    WorkingCloud work(b.cloud, b.node);
+    Structure structure = build_structure(b.cloud);
+    PassReport report;
+    join_crumbs(work, structure, {.thinnest_film = thinnest}, report);
+    const Resampling<2> change = work.finish();
+    EXPECT_EQ(report.crumbs, crumbs) << above << " " << thinnest;
+    EXPECT_EQ(report.undone, 0);
+    EXPECT_EQ(testing::loops(change.cloud), 2 - crumbs);
+    EXPECT_EQ(change.cloud.nodes(), b.cloud.nodes() - 4 * crumbs);
+    expect_all_handed_on(change, b.node.mass.size());
+    EXPECT_EQ(structure.mesh.triangle_of_node.size(), change.cloud.position.size());
+  }
+}
+
+TEST(Film, crumbs_of_other_matter_or_that_are_held_stay) {
+  Blank b = with_crumb(0.1 * h);
+  const auto crumbs_of = [](const Blank& of) {
+    WorkingCloud work(of.cloud, of.node);
+    Structure structure = build_structure(of.cloud);
+    PassReport report;
+    join_crumbs(work, structure, {.thinnest_film = 0.1 * h}, report);
+    return report.crumbs;
+  };
+  EXPECT_EQ(crumbs_of(b), 1);
+  const std::size_t last = b.node.mass.size() - 1;
+  b.node.held[as<NodeIndex>(last)] = 1;
+  EXPECT_EQ(crumbs_of(b), 0);
+  b.node.held[as<NodeIndex>(last)] = 0;
+  b.node.part.assign(last + 1, 0);
+  for (std::size_t i = last - 3; i <= last; ++i) b.node.part[i] = 1;
+  EXPECT_EQ(crumbs_of(b), 0);
 }
 
 TEST(Film, whose_end_would_be_a_crumb_stays_whole) {

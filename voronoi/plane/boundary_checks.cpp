@@ -71,7 +71,7 @@ IndexedVector<NodeIndex, CloudFacetIndex> outgoing_facets(const Cloud<2>& cloud)
 void throw_crossing(const Cloud<2>& cloud) {
   for (const CloudFacetIndex f : cloud.facets.indices())
     for (const CloudFacetIndex g : cloud.facets.indices()) {
-      if (g <= f) continue;
+      if (g <= f || !cloud.one_body(cloud.facets[f].node[0], cloud.facets[g].node[0])) continue;
       const Vec2 &a = at(cloud, cloud.facets[f].node[0]), &b = at(cloud, cloud.facets[f].node[1]);
       const Vec2 &c = at(cloud, cloud.facets[g].node[0]), &d = at(cloud, cloud.facets[g].node[1]);
       const double side_c = cross(b - a, c - a), side_d = cross(b - a, d - a);
@@ -90,6 +90,7 @@ void throw_node_on_facet(const Cloud<2>& cloud, CloudFacetIndex facet) {
   NodeIndex nearest = NodeIndex::none;
   double best = 0.0;
   for (const NodeIndex i : cloud.position.indices()) {
+    if (!cloud.one_body(a, i)) continue;
     const Vec2 r = at(cloud, i) - at(cloud, a);
     const double s = r.dot(along) / along.squaredNorm();
     if (s <= 0.0 || s >= 1.0 || r == along) continue;

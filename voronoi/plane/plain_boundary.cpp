@@ -63,9 +63,10 @@ public:
     for (const NodeIndex i : lowest) {
       // the boundary turns left at the lowest node of an outer loop
       const int turn = orientation(at(before[i]), at(i), at(next[i]));
-      int around = 0; // how often the other loops run round this one
+      int around = 0; // how often the other loops of its body run round this one
       for (const Boxed& f : facets_) {
-        if (loop[f.a] == loop[i] || f.high <= at(i).y() || f.low > at(i).y()) continue;
+        if (loop[f.a] == loop[i] || !cloud_.one_body(f.a, i) || f.high <= at(i).y() || f.low > at(i).y())
+          continue;
         const int side = orientation(at(f.a), at(f.b), at(i));
         const bool up = at(f.b).y() > at(f.a).y();
         if (up && side > 0) ++around;
@@ -80,6 +81,7 @@ private:
   const Vec2& at(NodeIndex i) const { return cloud_.position[i]; }
 
   bool are_apart(const Boxed& f, const Boxed& g) const {
+    if (!cloud_.one_body(f.a, g.a)) return true;
     if (f.b == g.a) return f.a != g.b && passes_on(f.a, f.b, g.b);
     if (g.b == f.a) return passes_on(g.a, g.b, f.b);
     return same_side(f.a, f.b, g.a, g.b) || same_side(g.a, g.b, f.a, f.b);

@@ -15,8 +15,10 @@
 #include <algorithm>
 #include <cassert>
 #include <fmt/format.h>
+#include <map>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace cnem::voronoi {
 
@@ -45,17 +47,55 @@ using ConstrainedDelaunay =
 using Vertex = ConstrainedDelaunay::Vertex_handle;
 using Face = ConstrainedDelaunay::Face_handle;
 
+/// What is triangulated for itself.
+struct Body {
+  std::vector<NodeIndex> node;
+  std::vector<CloudFacetIndex> facet;
+};
+
+/// In the order of their first nodes.
+std::vector<Body> bodies_of(const Cloud<2>& cloud) {
+  std::vector<Body> bodies;
+  std::map<std::int32_t, std::size_t> number;
+  const auto body_of = [&](NodeIndex i) -> Body& {
+    const auto [found, is_new] = number.try_emplace(cloud.body.empty() ? 0 : cloud.body[i], bodies.size());
+    if (is_new) bodies.emplace_back();
+    return bodies[found->second];
+  };
+  for (const NodeIndex i : cloud.position.indices()) body_of(i).node.push_back(i);
+  for (const CloudFacetIndex f : cloud.facets.indices()) {
+    const auto [a, b] = cloud.facets[f].node;
+    if (!cloud.one_body(a, b))
+      throw GeometryError(fmt::format("{} leads from one body to another", describe_facet(cloud, f)));
+    body_of(a).facet.push_back(f);
+  }
+  for (const Body& body : bodies)
+    if (body.facet.empty())
+      throw GeometryError(
+          fmt::format("the body with {} has no boundary", describe_node(cloud, body.node[0])));
+  return bodies;
+}
+
 /// The work of one call of triangulate().
 class Builder {
 public:
-  explicit Builder(const Cloud<2>& cloud) : cloud_(cloud), leaving_(outgoing_facets(cloud)) {}
+  explicit Builder(const Cloud<2>& cloud)
+      : cloud_(cloud), leaving_(outgoing_facets(cloud)), group_(twin_groups(cloud)) {
+    vertex_.resize(cloud.position.size());
+    is_merged_.assign(cloud.position.size(), false);
+    left_of_.resize(cloud.facets.size());
+  }
 
   Triangulation build() {
-    insert_nodes();
-    insert_facets();
-    mark_sides();
-    number_triangles();
-    if (merged_) separate_merged_nodes();
+    for (Body& body : bodies_of(cloud_)) {
+      body_ = std::move(body);
+      merged_ = false;
+      insert_nodes();
+      insert_facets();
+      mark_sides();
+      number_triangles();
+      if (merged_) separate_merged_nodes();
+    }
     number_by_nodes(result_, cloud_.position.size());
     check_nodes();
     return std::move(result_);
@@ -69,12 +109,9 @@ private:
   /// into an unconstrained triangulation, whose flips are cheaper; the constrained one takes over its
   /// structure.
   void insert_nodes() {
-    const auto group = twin_groups(cloud_);
-    vertex_.resize(index_of(cloud_.nodes()));
-    is_merged_.assign(index_of(cloud_.nodes()), false);
     Unconstrained nodes;
     Face hint;
-    for (const NodeIndex i : cloud_.position.indices()) {
+    for (const NodeIndex i : body_.node) {
       const std::size_t before = nodes.number_of_vertices();
       const Vertex v = nodes.insert({at(i).x(), at(i).y()}, hint);
       hint = v->face();
@@ -84,14 +121,14 @@ private:
         continue;
       }
       const NodeIndex first = v->info();
-      if (group.empty() || group[first] != group[i])
+      if (group_.empty() || group_[first] != group_[i])
         throw GeometryError(fmt::format("{} coincides with node {}: expected distinct positions, or a "
                                         "declared pair of twins on the two faces of a crack",
                                         describe_node(cloud_, i), index_of(first)));
       is_merged_[first] = is_merged_[i] = merged_ = true;
     }
     if (nodes.dimension() < 2)
-      throw GeometryError(fmt::format("empty domain: the {} nodes lie on one line", cloud_.nodes()));
+      throw GeometryError(fmt::format("empty domain: the {} nodes lie on one line", body_.node.size()));
     const Vertex infinite = nodes.infinite_vertex();
     delaunay_.tds().swap(nodes.tds());
     delaunay_.set_infinite_vertex(infinite);
@@ -99,11 +136,11 @@ private:
 
   void insert_facets() {
     try {
-      for (const auto& facet : cloud_.facets)
-        delaunay_.insert_constraint(vertex_[facet.node[0]], vertex_[facet.node[1]]);
+      for (const CloudFacetIndex facet : body_.facet)
+        delaunay_.insert_constraint(vertex_[cloud_.facets[facet].node[0]],
+                                    vertex_[cloud_.facets[facet].node[1]]);
     } catch (const ConstrainedDelaunay::Intersection_of_constraints_exception&) { throw_crossing(cloud_); }
-    left_of_.resize(cloud_.facets.size());
-    for (const CloudFacetIndex facet : cloud_.facets.indices()) {
+    for (const CloudFacetIndex facet : body_.facet) {
       const Vertex a = vertex_[cloud_.facets[facet].node[0]], b = vertex_[cloud_.facets[facet].node[1]];
       Face face;
       int k = 0;
@@ -146,9 +183,9 @@ private:
 
   void mark_sides() {
     flood(delaunay_.infinite_face(), Side::outside);
-    for (const CloudFacetIndex f : left_of_.indices())
+    for (const CloudFacetIndex f : body_.facet)
       if (!flood(left_of_[f].first, Side::inside)) throw_orientation(f);
-    for (const CloudFacetIndex f : left_of_.indices()) {
+    for (const CloudFacetIndex f : body_.facet) {
       const auto& [face, k] = left_of_[f];
       const auto& right = face->neighbor(k)->info();
       if (right.side == Side::inside && !exists(right.facet[index_of(delaunay_.mirror_index(face, k))]))
@@ -164,33 +201,33 @@ private:
   }
 
   void number_triangles() {
-    IndexedVector<SimplexIndex, Face> faces;
-    faces.reserve(2 * index_of(cloud_.nodes()));
+    const SimplexIndex begin = result_.node.next();
+    std::vector<Face> faces;
+    faces.reserve(2 * body_.node.size());
     for (const Face face : delaunay_.finite_face_handles()) {
       if (face->info().side != Side::inside) continue;
-      face->info().triangle = faces.next();
+      face->info().triangle = as<SimplexIndex>(index_of(begin) + faces.size());
       faces.push_back(face);
     }
     if (faces.empty())
       throw GeometryError(fmt::format("empty domain: the boundary, which starts with {}, encloses no area",
-                                      describe_facet(cloud_, CloudFacetIndex{})));
-    result_.node.resize(faces.size());
-    result_.neighbour.resize(faces.size());
-    result_.facet.resize(faces.size());
-    for (const SimplexIndex t : faces.indices()) {
-      const Face face = faces[t];
+                                      describe_facet(cloud_, body_.facet.front())));
+    for (const Face face : faces) {
+      auto& node = result_.node.emplace_back();
+      auto& neighbour = result_.neighbour.emplace_back();
+      auto& facet = result_.facet.emplace_back();
       for (int k = 0; k < 3; ++k) {
         const bool wall = face->is_constrained(k);
-        result_.node[t][index_of(k)] = face->vertex(k)->info();
-        result_.facet[t][index_of(k)] = face->info().facet[index_of(k)];
-        result_.neighbour[t][index_of(k)] = wall ? SimplexIndex::none : face->neighbor(k)->info().triangle;
+        node[index_of(k)] = face->vertex(k)->info();
+        facet[index_of(k)] = face->info().facet[index_of(k)];
+        neighbour[index_of(k)] = wall ? SimplexIndex::none : face->neighbor(k)->info().triangle;
       }
     }
   }
 
   /// Gives every sector of triangles between two facets at a merged vertex the node of these facets.
   void separate_merged_nodes() {
-    for (const CloudFacetIndex f : left_of_.indices()) {
+    for (const CloudFacetIndex f : body_.facet) {
       const NodeIndex node = cloud_.facets[f].node[0];
       if (!is_merged_[node]) continue;
       SimplexIndex t = left_of_[f].first->info().triangle;
@@ -229,6 +266,8 @@ private:
 
   const Cloud<2>& cloud_;
   IndexedVector<NodeIndex, CloudFacetIndex> leaving_; ///< facet that leaves it
+  IndexedVector<NodeIndex, NodeIndex> group_;         ///< of twins
+  Body body_;                                         ///< that is under way, and what there is of it:
   ConstrainedDelaunay delaunay_;
   IndexedVector<NodeIndex, Vertex> vertex_;
   IndexedVector<NodeIndex, bool> is_merged_; ///< shares its CGAL vertex

@@ -27,7 +27,7 @@ struct Triangulation {
 /// Counter-clockwise after corner k of a triangle.
 inline std::int32_t next_corner(std::int32_t k) { return k == 2 ? 0 : k + 1; }
 
-/// Triangulates the domain bounded by the cloud's facets. O(N log N).
+/// Triangulates the domain bounded by the cloud's facets, each body for itself (Cloud::body). O(N log N).
 /// Throws GeometryError, with positions, for: an empty domain, facets that do not form closed loops or run
 /// the wrong way round, loops that cross themselves or each other, nodes outside the domain or on a facet
 /// that is not theirs, coincident nodes that are not declared twins, non-finite positions.

@@ -103,22 +103,78 @@ TEST(Bodies, penetration_found_at_the_start_is_removed_slowly) {
 }
 
 TEST(Bodies, faces_that_were_bonded_keep_what_pressed_them_and_no_more) {
-  const double depth = 0.02;
-  const auto gap_after = [&](double pressed, double closing) {
+  const auto gap_after = [&](double depth, double pressed, double closing) {
     Masses scene = block(5, 5, 0.25, {0, 0}, 400.0, 0.5);
     append(scene, block(5, 5, 0.25, {0.02, 1.0 - depth}, 400.0, 0.5, 0.0, {0, -closing}));
     let_bodies_touch(scene, 0.0);
     Bonds bonds;
-    for (const Facet<2>& facet : scene.facets) bonds.face.push_back(as<int>(facet.node[0]) < 25 ? 0 : 1);
-    bonds.covered.assign(scene.facets.size(), 0);
-    bonds.bonded.assign(scene.mass.size(), -1);
+    bonds.rest(scene.mass.size(), scene.facets.size());
+    for (const CloudFacetIndex f : bonds.face.indices())
+      bonds.face[f] = as<int>(scene.facets[index_of(f)].node[0]) < 25 ? 0 : 1;
     bonds.pressed.assign(scene.mass.size(), pressed);
     scene.contact->set_bonds(bonds);
     for (int n = 0; n < 1500; ++n) scene.step(1e-3);
     return scene.position(25).y() - scene.position(20).y();
   };
-  EXPECT_NEAR(gap_after(depth, 0.0), -depth, 1e-15) << "to push it out would take work";
-  EXPECT_GT(gap_after(0.0, 0.1), -0.5 * depth) << "what came to it later goes";
+  EXPECT_NEAR(gap_after(0.02, 0.02, 0.0), -0.02, 1e-15) << "to push it out would take work";
+  EXPECT_GT(gap_after(0.02, 0.0, 0.1), -0.01) << "what came to it later goes";
+  EXPECT_NEAR(gap_after(0.2, 0.2, 0.0), -0.2, 1e-15);
+  EXPECT_GT(gap_after(0.2, 0.2, 0.1), -0.21)
+      << "faces that have been pressed deeper than pairs are looked for";
+}
+
+/// Two blocks with facets of 0.25, one of which stands on the other by this much less than nothing, all of
+/// their nodes bonded, and a square of side 0.1 that stands still.
+Masses bonded_blocks(double depth, const Vec2& square) {
+  Masses scene = block(5, 5, 0.25, {0, 0}, 400.0, 0.5);
+  append(scene, block(5, 5, 0.25, {0, 1.0 - depth}, 400.0, 0.5));
+  scene.springs.clear();
+  scene.square(square, 0.1);
+  let_bodies_touch(scene, 0.0);
+  Bonds bonds;
+  bonds.rest(scene.mass.size(), scene.facets.size());
+  for (std::size_t f = 0; f < scene.facets.size(); ++f) {
+    const auto [a, b] = scene.facets[f].node;
+    const auto on = [&](double y) { return scene.position(a).y() == y && scene.position(b).y() == y; };
+    const bool below = on(1.0) && as<int>(a) < 25;
+    if (!below && !(on(1.0 - depth) && as<int>(a) < 50)) continue;
+    bonds.face[f] = below ? 1 : 0;
+    const double from = scene.position(a).x(), to = scene.position(b).x();
+    bonds.arc[f] = {std::min(from, to), std::max(from, to)};
+    for (const NodeIndex i : {a, b}) {
+      bonds.bonded[i] = below ? 1 : 0;
+      bonds.reach[i] = {scene.position(i).x(), scene.position(i).x()};
+    }
+  }
+  scene.contact->set_bonds(bonds);
+  return scene;
+}
+
+TEST(Bodies, bonded_nodes_do_not_meet_what_they_are_bonded_to_and_meet_all_else) {
+  Masses pressed = bonded_blocks(0.02, {5.0, 5.0});
+  for (int n = 0; n < 10; ++n) pressed.step(1e-3);
+  EXPECT_EQ(pressed.contact->body_result().total.recovery, 0.0);
+  EXPECT_EQ(pressed.momentum(), Vec2(0, 0));
+  // between the faces, where a node of either is between two facets that are bonded to the other
+  Masses parted = bonded_blocks(-0.11, {0.45, 1.005});
+  for (int i = 25; i < 50; ++i) parted.v[1][std::size_t(i)] = -1.0;
+  for (int n = 0; n < 40; ++n) parted.step(1e-3);
+  const int node = 27; // in the middle of the upper face
+  ASSERT_NEAR(parted.position(node).x(), 0.5, 1e-12);
+  EXPECT_GT(parted.position(node).y(), parted.position(52).y() - 1e-3) << "it does not go into the square";
+}
+
+TEST(Bodies, a_sharp_tip_meets_what_neither_of_its_facets_faces) {
+  Masses scene = block(5, 5, 0.25, {0, 0}, 400.0, 0.5);
+  scene.springs.clear();
+  for (double& m : scene.mass) m = 1e9;
+  const int tip = scene.add({0.4, 1.005}, 1.0, {0.0, -1.0}); // 11 degrees
+  scene.add({0.45, 1.505}, 1.0, {0.0, -1.0});
+  scene.add({0.35, 1.505}, 1.0, {0.0, -1.0});
+  scene.loop({tip, tip + 1, tip + 2});
+  let_bodies_touch(scene, 0.0);
+  for (int n = 0; n < 50; ++n) scene.step(1e-3);
+  EXPECT_GT(scene.position(tip).y(), 1.0 - 1e-5);
 }
 
 TEST(Bodies, sub_steps_are_reported_as_one_step) {

@@ -326,12 +326,15 @@ TEST(CohesiveFaces, open_parts_bear_nothing_and_are_left_to_contact) {
   EXPECT_EQ(faces.force()[1][1], 0.0);
   EXPECT_NEAR(faces.force()[1][3], K * 1e-8 * 0.75 * h, 1e-10 * K * 1e-8 * h);
   const contact::Bonds bonds = faces.bonds(cloud);
-  const auto covered = [&](std::size_t f) { return bonds.covered[as<CloudFacetIndex>(f)] != 0; };
-  EXPECT_FALSE(covered(0) || covered(1));
-  EXPECT_TRUE(covered(2) && covered(3));
   EXPECT_EQ(bonds.bonded[as<NodeIndex>(1)], -1);
   EXPECT_EQ(bonds.bonded[as<NodeIndex>(3)], 0);
   EXPECT_EQ(bonds.bonded[as<NodeIndex>(matching.size() + 3)], 1);
+  const auto joins = [&](std::size_t node, std::size_t facet) {
+    return bonds.joins(as<NodeIndex>(node), as<CloudFacetIndex>(facet));
+  };
+  EXPECT_TRUE(joins(3, 4) && joins(4, 4)) << "the last two nodes, and the facet across from them";
+  EXPECT_FALSE(joins(1, 4)) << "is broken";
+  EXPECT_FALSE(joins(4, 7)) << "is elsewhere";
 }
 
 /// Splits the upper face's second segment in the middle.

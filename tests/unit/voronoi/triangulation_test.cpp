@@ -98,6 +98,34 @@ TEST(Triangulation, SeparateBodiesMayTouchAtTwins) {
     EXPECT_EQ(nodes[0] < 4_node, nodes[1] < 4_node) << index_of(nodes[0]) << ' ' << index_of(nodes[1]);
 }
 
+TEST(Triangulation, BodiesMayLieInEachOther) {
+  Cloud<2> cloud;
+  add_loop(cloud, {{0, 0}, {1, 0}, {1, 1}, {0, 1}});
+  add_loop(cloud, {{0.9, 0.2}, {2, 0.2}, {2, 0.8}, {0.9, 0.8}});
+  cloud.position.push_back({0.95, 0.5}); // in both, and of the first
+  EXPECT_THROW(triangulate(cloud), GeometryError);
+  cloud.body.assign(9, 7);
+  for (std::size_t i = 4; i < 8; ++i) cloud.body[i] = 2;
+  const auto mesh = triangulate(cloud);
+  EXPECT_NEAR(area(cloud, mesh), 1.0 + 1.1 * 0.6, 1e-15);
+  expect_consistent(cloud, mesh);
+  for (const auto& nodes : mesh.node)
+    for (const NodeIndex i : nodes) EXPECT_EQ(cloud.body[i], cloud.body[nodes[0]]);
+  cloud.simplices = mesh.node;
+  cloud.across = mesh.neighbour;
+  EXPECT_EQ(triangulate(cloud).node, mesh.node) << "from what there was";
+}
+
+TEST(Triangulation, BodiesMayNotCrossThemselves) {
+  Cloud<2> cloud;
+  add_loop(cloud, {{0, 0}, {1, 0}, {0, 1}, {1, 1}});
+  add_loop(cloud, {{0, -1}, {2, -1}, {2, 0.2}, {0, 0.2}});
+  cloud.body = {0, 0, 0, 0, 1, 1, 1, 1};
+  expect_error(cloud, {"crosses itself at (0.5, 0.5) m", "facet 1", "facet 3"});
+  cloud.body = {0, 0, 0, 1, 1, 1, 1, 1};
+  expect_error(cloud, {"facet 2", "leads from one body to another"});
+}
+
 TEST(Triangulation, EmbeddedCrackHasTwoFaces) {
   const auto cloud = embedded_crack();
   const auto mesh = triangulate(cloud);
