@@ -3,6 +3,7 @@
 #include "core/index.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 #include <vector>
 
@@ -22,6 +23,7 @@ double opening_width(const DiscreteOperators<2>& operators, const Field& x, std:
     seen += node[k].second;
     sum += seen * seen * (node[k].first - node[k - 1].first);
   }
+  assert(sum > 0.0);
   return 1.0 / sum;
 }
 

@@ -241,7 +241,7 @@ std::vector<std::size_t> runs_of_plies(const Study& study, const std::vector<Run
     const std::size_t first = result.front(), last = result.back();
     if (const std::string differs = difference(*cuts[first], *cuts[last]); !differs.empty())
       refuse(fmt::format("found plies '{}' and '{}' cut with {} (runs '{}' and '{}'), expected one tool: the "
-                         "same rake, clearance, edge, feed, speed and friction for all plies",
+                         "same rake, clearance, edge radius, feed, speed and friction for all plies",
                          laminate.plies.front().name, ply.name, differs, study.runs[first].name,
                          study.runs[last].name));
   }

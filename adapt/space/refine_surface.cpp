@@ -139,9 +139,15 @@ private:
     // of a row of short edges every second node goes, not all
     IndexedVector<NodeIndex, char> stays(surface_.nodes(), 0);
     const auto go = [&](NodeIndex gone, NodeIndex into) {
-      if (stays[gone] || !surface_.on_surface(gone)) return false;
+      if (!surface_.on_surface(gone) || !surface_.on_surface(into)) return false;
+      const Edge short_edge = surface_.between(gone, into);
+      if (short_edge == WorkingSurface::no_edge) return false;
       std::vector<NodeIndex> beside;
-      surface_.around(gone, [&](Edge e) { beside.push_back(surface_.end(e)); });
+      for (const Edge image : alike_.edges(short_edge)) { // those shifted by a period go with it
+        const NodeIndex start = surface_.start(image);
+        if (stays[start]) return false;
+        surface_.around(start, [&](Edge e) { beside.push_back(surface_.end(e)); });
+      }
       if (!collapse(gone, into)) return false;
       for (const NodeIndex i : beside) stays[i] = 1;
       return true;

@@ -17,9 +17,9 @@ namespace {
 /// [tetrahedron] the one that it is taken together with, itself unless it is flat; empty: none is flat.
 IndexedVector<SimplexIndex, SimplexIndex> partners(const Cloud<3>& cloud, const Tetrahedra& mesh,
                                                    std::vector<double>& volume) {
-  // of 6V over the 3/2nd power of the sum of the squares of the edges: four times above what conduction lets
+  // of 6V over the 3/2nd power of the sum of the squares of the edges: twice what conduction lets
   // them go flat before it changes what they carry (thermal/conduction_kernels.hpp)
-  constexpr double flat = 0.002;
+  constexpr double flat = 0.001, larger = 1.01;
   const std::size_t count = mesh.node.size();
   volume.resize(count);
   std::vector<std::uint8_t> is_flat(count);
@@ -40,7 +40,7 @@ IndexedVector<SimplexIndex, SimplexIndex> partners(const Cloud<3>& cloud, const 
     partner[t] = t;
     if (!is_flat[index_of(t)]) continue;
     for (const SimplexIndex other : mesh.neighbour[t]) // volumes grow along the way, so that it ends
-      if (exists(other) && volume[index_of(other)] > volume[index_of(partner[t])]) partner[t] = other;
+      if (exists(other) && volume[index_of(other)] > larger * volume[index_of(partner[t])]) partner[t] = other;
   }
   for (const SimplexIndex t : mesh.node.indices())
     while (partner[partner[t]] != partner[t]) partner[t] = partner[partner[t]];

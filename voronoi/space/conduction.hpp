@@ -5,12 +5,12 @@
 
 namespace cnem::voronoi {
 
-/// linear_simplices<3> with one point a tetrahedron, but that flat ones (six times their volume below 0.002
+/// linear_simplices<3> with one point a tetrahedron, but that flat ones (six times their volume below 0.001
 /// of the 3/2nd power of the sum of the squares of their edges, 0.048 if these are equal) are taken together
 /// with the neighbour of the largest volume: gradients are means over both, so that they stay finite and the
 /// stable step of conduction that of well-shaped tetrahedra. Constants, linear fields and constant fluxes
 /// remain exact. Rows of single ones, of four nodes, come before the others. O(N). Throws GeometryError as
-/// linear_simplices where a flat one has no larger neighbour.
+/// linear_simplices where one without volume has no larger neighbour.
 DiscreteOperators<3> linear_tetrahedra(const Cloud<3>& cloud, const Tetrahedra& mesh);
 
 } // namespace cnem::voronoi
