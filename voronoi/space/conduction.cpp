@@ -40,7 +40,8 @@ IndexedVector<SimplexIndex, SimplexIndex> partners(const Cloud<3>& cloud, const 
     partner[t] = t;
     if (!is_flat[index_of(t)]) continue;
     for (const SimplexIndex other : mesh.neighbour[t]) // volumes grow along the way, so that it ends
-      if (exists(other) && volume[index_of(other)] > larger * volume[index_of(partner[t])]) partner[t] = other;
+      if (exists(other) && volume[index_of(other)] > larger * volume[index_of(partner[t])])
+        partner[t] = other;
   }
   for (const SimplexIndex t : mesh.node.indices())
     while (partner[partner[t]] != partner[t]) partner[t] = partner[partner[t]];
