@@ -52,4 +52,8 @@ struct MachiningCase {
   StabilityRange stability;
 };
 
+/// Why a workpiece of that extent (m) takes more cells of dexels than memory is wanted for; empty: it does
+/// not.
+std::string too_many_cells(const MachiningCase& milling, const Vec2& size, double height);
+
 } // namespace cnem::input

@@ -167,16 +167,20 @@ void read_path(Setting& root, MachiningCase& read, const std::string& case_path,
   read.blank = read_blank(*workpiece, case_path, diagnostics);
   if (!read.blank || read.passes.empty()) return;
   check_tips(milling, read.blank->height, diagnostics);
-  constexpr double most_cells = 2e8, degrees = 60.0;
-  const Vec2 size = read.blank->high - read.blank->low;
+  if (const std::string doubt = too_many_cells(read, read.blank->high - read.blank->low, read.blank->height);
+      !doubt.empty())
+    diagnostics.add(Mistake::range, workpiece->where, workpiece->path, doubt);
+}
+
+std::string too_many_cells(const MachiningCase& read, const Vec2& size, double height) {
+  constexpr double most = 2e8, degrees = 60.0;
   const double cell = std::max(read.dexels.pitch, read.cut.cutter.radius() / degrees);
-  const double layers = std::max(1.0, read.blank->height / read.axial_depth) * read.dexels.layers;
-  if (const double cells = size.x() / cell * (size.y() / cell) * layers; cells > most_cells)
-    diagnostics.add(
-        Mistake::range, workpiece->where, workpiece->path,
-        fmt::format("holds {:.3g} cells of dexels, expected at most {:g}: a smaller workpiece, fewer "
-                    "dexels.layers or a larger dexels.pitch",
-                    cells, most_cells));
+  const double layers = std::max(1.0, height / read.axial_depth) * read.dexels.layers;
+  const double cells = size.x() / cell * (size.y() / cell) * layers;
+  if (cells <= most) return "";
+  return fmt::format("holds {:.3g} cells of dexels, expected at most {:g}: a smaller workpiece, fewer "
+                     "dexels.layers or a larger dexels.pitch",
+                     cells, most);
 }
 
 } // namespace cnem::input

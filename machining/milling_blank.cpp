@@ -66,10 +66,9 @@ DexelLayer MillingProcess::stock(std::size_t layer) const {
   assert(settings_.blank);
   const Blank& blank = *settings_.blank;
   if (blank.left) {
-    const std::vector<Slice>& slices = blank.left->slices;
-    const auto above = std::find_if(slices.begin() + 1, slices.end(),
-                                    [&](const Slice& slice) { return slice.low >= height(layer); });
-    return blank.left->layers[index_of(above - slices.begin()) - 1];
+    DexelLayer none(blank.low, blank.high, cells());
+    none.erase_box(blank.low, blank.high);
+    return none;
   }
   if (blank.surface.triangles.empty()) return {blank.low, blank.high, cells()};
   return {blank.low, blank.high, cells(), section_pieces(blank.surface, height(layer))};
@@ -78,8 +77,16 @@ DexelLayer MillingProcess::stock(std::size_t layer) const {
 void MillingProcess::take_blank() {
   using enum ProcessSettings::Start;
   if (settings_.blank) {
-    if (const auto& left = settings_.blank->left) first_ = left->turned * settings_.steps / left->steps_of_turn;
-    for (std::size_t k = 0; k < slice_.size(); ++k) layer_.push_back(stock(k));
+    if (const auto& left = settings_.blank->left) {
+      first_ = left->turned * settings_.steps / left->steps_of_turn;
+      std::size_t of = 0;
+      for (const Slice& slice : slice_) {
+        while (of + 1 < left->slices.size() && left->slices[of + 1].low < slice.middle()) ++of;
+        layer_.push_back(left->layers[of]);
+      }
+    } else {
+      for (std::size_t k = 0; k < slice_.size(); ++k) layer_.push_back(stock(k));
+    }
     block_ = volume();
     return;
   }

@@ -30,7 +30,7 @@ MillingProcess::MillingProcess(MillingCut cut, std::vector<Mode> modes, const Pr
   bite_.resize(edges().layers() * edges().teeth());
   way_.resize(bite_.size());
   sweep_.resize(bite_.size());
-  if (part_) edge_.resize(bite_.size());
+  if (part_) edge_.assign(bite_.size(), Vec3::Zero());
   take_flanks();
   shape_ = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(layer_.size()), state_.cols());
   shift_.assign(layer_.size(), Vec3::Zero());
@@ -147,7 +147,10 @@ MillingProcess::PerLayer MillingProcess::relative(const PerLayer& shift) const {
   const Vec2 side = at + cut_.cutter.radius() * machined_side(along);
   PerLayer beside = shift;
   for (std::size_t k = 0; k < beside.size(); ++k)
-    beside[k] -= part_->end().displacement(Vec3(side.x(), side.y(), height(k)));
+    if (!edges().reaches(k))
+      beside[k].setZero(); // no edge is beside the part there
+    else
+      beside[k] -= part_->end().displacement(Vec3(side.x(), side.y(), height(k)));
   return beside;
 }
 
@@ -349,6 +352,9 @@ ProcessStep MillingProcess::make_step() {
 void MillingProcess::archive(Archive& archive) {
   archive.integer("milling/step", step_);
   archive.integer("milling/passes_begun", passes_begun_);
+  if (passes_begun_ < 0 || pass() >= edges_.size())
+    throw IoError(
+        fmt::format("milling/passes_begun holds {}, which are no passes of this case", passes_begun_));
   std::vector<double> modes(state_.data(), state_.data() + state_.size());
   archive.list("milling/modes", "m", modes);
   if (modes.size() != static_cast<std::size_t>(state_.size()))

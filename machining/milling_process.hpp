@@ -43,7 +43,7 @@ struct ProcessStep : EdgeLoad {
                           ///< agree for good: edges that only rub
 };
 
-/// Corners of the workpiece at first, m: x and y, and z from the lowest tip to its height.
+/// Corners of the workpiece at first, m: x and y, and z from 0, over which tips count, to its height.
 struct Workpiece {
   Vec3 low, high;
 };
@@ -77,11 +77,12 @@ public:
   /// m, of the cutter's axis without vibration at the begin of the next step.
   Vec2 axis() const { return way_at(static_cast<double>(step_)).at; }
   double tip() const { return motion_.tip(motion_.pass_of(step_)); } ///< m, height of the tip then
-  double pass_tip() const { return motion_.tip(pass()); }             ///< m, in the last step
+  double pass_tip() const { return motion_.tip(pass()); }            ///< m, in the last step
   const FlexiblePart* part() const { return part_.get(); }           ///< none: it is rigid but for its modes
   Workpiece workpiece() const { return workpiece_of(cut_, settings_); }
   const std::vector<DexelLayer>& layers() const { return layer_; }
-  /// A layer of the workpiece of passes before the first one.
+  /// A layer of the workpiece of passes before any run; empty where an earlier one has left it, whose sides
+  /// may all be machined.
   DexelLayer stock(std::size_t layer) const;
   const std::vector<Slice>& slices() const { return slice_; }               ///< [layer]
   double height(std::size_t layer) const { return slice_[layer].middle(); } ///< m
@@ -111,7 +112,9 @@ public:
 private:
   using PerLayer = std::vector<Vec3>;
 
-  std::size_t pass() const { return passes_begun_ > 0 ? index_of(passes_begun_) - 1 : 0; } ///< of the last step
+  std::size_t pass() const {
+    return passes_begun_ > 0 ? index_of(passes_begun_) - 1 : 0;
+  } ///< of the last step
   const EdgeElements& edges() const { return edges_[pass()]; }
   void take_flanks(); ///< of the pass, without traces
   /// At a time in steps within the pass of this step.

@@ -58,7 +58,7 @@ public:
   std::size_t pass_of(std::int64_t step) const;
   /// Of the axis at a time in steps, within a pass.
   ToolPath::Place place(std::size_t pass, double at) const;
-  Vec2 axis(std::size_t pass, double at) const { return place(pass, at).at; } ///< m
+  Vec2 axis(std::size_t pass, double at) const { return place(pass, at).at; }            ///< m
   double tip(std::size_t pass) const { return path_.empty() ? 0.0 : path_[pass].tip(); } ///< m
 
   /// s, at the begin of a step.

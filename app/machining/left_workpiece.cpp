@@ -62,6 +62,10 @@ std::shared_ptr<const machining::LeftWorkpiece> workpiece_of_earlier_run(const i
     throw input.error(key, fmt::format("cannot take '{}': {}, expected what a run of this version has left",
                                        file.string(), error.what()));
   }
+  const machining::DexelLayer& layer = left->layers.front();
+  if (const std::string doubt = input::too_many_cells(milling, layer.high() - layer.low(), left->height());
+      !doubt.empty())
+    throw input.error(key, doubt);
   for (std::size_t k = 0; k < milling.passes.size(); ++k)
     if (const double tip = milling.passes[k].tip(); tip >= left->height())
       throw input.error(fmt::format("milling.passes[{}].tip", k),

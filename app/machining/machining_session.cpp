@@ -29,6 +29,12 @@ MachiningSession::MachiningSession(const input::Case& input, const RunOptions& o
                                    bool goes_on)
     : input_(input), options_(options), observer_(observer), history_(options.keep_history) {
   if (!options_.output.empty() && !goes_on) {
+    if (input.machining && !input.machining->earlier_run.empty() &&
+        std::filesystem::weakly_canonical(options_.output) ==
+            std::filesystem::weakly_canonical(input.machining->earlier_run))
+      throw input.error("milling.workpiece.run",
+                        "found the folder that this run's results go to, expected another --output: the "
+                        "workpiece there would be deleted");
     results::prepare_output_folder(options_.output, options_.force);
     results::write_atomically(options_.output / results::files::resolved_case, input.resolved);
   }

@@ -57,8 +57,8 @@ private:
   double still_chips() const;
 
   machining::MillingProcess process_;
-  Window counts_, heard_;        ///< turns that stand for forces, and for vibration
-  Course steady_;                ///< of the last turns
+  Window counts_, heard_; ///< turns that stand for forces, and for vibration
+  Course steady_;         ///< of the last turns
   PassRecords passes_;
   double still_ = 0.0;           ///< m, still_chips(); 0 before they are known
   double first_frequency_ = 0.0; ///< Hz, of a part that deforms, at first

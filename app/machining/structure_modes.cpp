@@ -208,9 +208,17 @@ std::unique_ptr<machining::FlexiblePart> flexible_part(const input::Case& input,
     SparseMatrix follow = moved_by(part);
     machining::PresenceAtStep presence = [whole = part.presence()](std::int64_t) { return whole; };
     if (read->taking) {
-      const auto tool = std::make_shared<const machining::TheoreticalTool>(
-          part, machining::MillingProcess(cut, {}, settings), [&](const Vec3& x) { return axes.in_cut(x); },
-          machining::TheoreticalTool::Intervals{read->taking->interval, read->taking->most});
+      const auto tool = [&] {
+        try {
+          return std::make_shared<const machining::TheoreticalTool>(
+              part, machining::MillingProcess(cut, {}, settings),
+              [&](const Vec3& x) { return axes.in_cut(x); },
+              machining::TheoreticalTool::Intervals{read->taking->interval, read->taking->most});
+        } catch (const DivergenceError& error) {
+          throw input.error("part.removal",
+                            fmt::format("asks for a rigid run beforehand, which fails: {}", error.what()));
+        }
+      }();
       presence = [tool](std::int64_t step) { return tool->presence(step); };
     }
     return std::make_unique<machining::FlexiblePart>(

@@ -151,6 +151,22 @@ TEST_F(MillingHandover, RefusesWhatIsNoFinishedRunOfPasses) {
   expect(refusal("empty"), "cannot take");
 }
 
+TEST_F(MillingHandover, DoesNotReplaceTheRunThatItGoesOnFrom) {
+  ASSERT_EQ(run(written("roughing", block, pass("2", "4.5")), "roughing"), Exit::done);
+  EXPECT_THROW(run(written("finishing", "{ run = \"roughing\" }", pass("0", "5")), "roughing"), InputError);
+  EXPECT_TRUE(fs::exists(at("roughing") / input::left_workpiece));
+}
+
+TEST_F(MillingHandover, ARigidSpringPassHasTheSurfaceThatWasLeft) {
+  ASSERT_EQ(run(written("cut", block, pass("0", "5")), "cut"), Exit::done);
+  ASSERT_EQ(run(written("spring", "{ run = \"cut\" }", pass("0", "5")), "spring"), Exit::done);
+  const auto error = [&](const std::string& name) {
+    return results::read_status(at(name)).metric("milling.location_error");
+  };
+  ASSERT_TRUE(error("spring").has_value());
+  EXPECT_NEAR(error("spring").value(), error("cut").value(), 1e-6);
+}
+
 TEST_F(MillingHandover, ARunThatWasDoneAgainIsNoLongerWhatItWas) {
   ASSERT_EQ(run(written("roughing", block, pass("2", "4.5")), "roughing"), Exit::done);
   const input::Case next = written("finishing", "{ run = \"roughing\" }", pass("0", "5"));
