@@ -63,6 +63,7 @@ void scan(const Factors& factors, std::span<const Mode> modes, double step_bound
 
 std::optional<ZeroOrderLimit> zero_order_limit(const MillingCut& cut, std::span<const Mode> modes,
                                                double spindle) {
+  if (modes.empty()) return std::nullopt;
   const DirectionalFactors mean = mean_factors(cut, spindle), damping = mean_damping(cut, spindle);
   const auto regeneration = [&](double omega) {
     Complex sum = 0.0;
@@ -109,6 +110,7 @@ std::optional<ZeroOrderLimit> zero_order_limit(const MillingCut& cut, std::span<
 std::optional<ZeroOrderLimit> zero_order_minimum(const MillingCut& cut, std::span<const Mode> modes,
                                                  double spindle) {
   std::optional<ZeroOrderLimit> least;
+  if (modes.empty()) return least;
   const ComplexFactors mean = mean_factors(cut, spindle).cast<Complex>();
   scan([&](double) -> const ComplexFactors& { return mean; }, modes, infinite,
        [&](double omega, const EigenvaluePair& value) {

@@ -110,6 +110,12 @@ TEST(ZeroOrder, NoLimitAlongTheAxis) {
   EXPECT_FALSE(zero_order_minimum(cut, std::vector{along}, 5000.0 * rpm));
 }
 
+TEST(ZeroOrder, NoLimitWithoutModes) {
+  const MillingCut cut = milling_cut(2, 6e8, 2e8, up, 0.1);
+  EXPECT_FALSE(zero_order_limit(cut, {}, 5000.0 * rpm));
+  EXPECT_FALSE(zero_order_minimum(cut, {}, 5000.0 * rpm));
+}
+
 TEST(Floquet, APartThatVibratesIsAToolThatDoes) {
   std::vector<Mode> modes = spindle_modes();
   const double radius = spectral_radius(spindle_cut(0.5), modes, 9000.0 * rpm, 1e-3);
