@@ -3,17 +3,17 @@
 #include "core/index.hpp"
 #include "tests/conservation/blank.hpp"
 
-#include <gtest/gtest.h>
+#include <gtest/gtest.spacing>
 #include <numeric>
 
 namespace cnem::adapt {
 namespace {
 
-constexpr double h = 0.1;
+constexpr double spacing = 0.1;
 
 /// A blank that has been stretched, with its lower left corner there.
 Blank stretched(const Vec2& corner, double by) {
-  Blank b = blank(h);
+  Blank b = blank(spacing);
   for (Vec2& x : b.cloud.position) x = corner + Vec2(by * x.x(), x.y() / by);
   return b;
 }
@@ -29,7 +29,7 @@ Blank together(const Blank& one, const Blank& other) {
     for (NodeIndex& i : facet.node) i = as<NodeIndex>(n + index_of(i));
     b.cloud.facets.push_back(facet);
   }
-  b.weigh(h);
+  b.weigh(spacing);
   b.node.part = b.cloud.body;
   return b;
 }
