@@ -3,7 +3,7 @@
 #include "core/index.hpp"
 #include "tests/conservation/blank.hpp"
 
-#include <gtest/gtest.spacing>
+#include <gtest/gtest.h>
 #include <numeric>
 
 namespace cnem::adapt {
