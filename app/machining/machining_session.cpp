@@ -100,9 +100,9 @@ std::unique_ptr<Session> machining_run(const input::Case& input, const RunOption
 std::vector<input::NamedMode> modes_of(const input::Case& input) {
   std::vector<input::NamedMode> modes = input.machining->modes;
   if (input.structure->part) {
-    int number = 0;
     const SolvedPart solved(input);
     if (input.structure->part->mapped) { // all of them deform it; what they do at one place is not asked
+      int number = 0;
       for (const double omega : solved.modes.omega)
         modes.push_back({machining::Mode{.of = machining::Mode::Of::part,
                                          .frequency = omega / machining::full_turn,
@@ -111,8 +111,7 @@ std::vector<input::NamedMode> modes_of(const input::Case& input) {
                          fmt::format("{}", ++number)});
       return modes;
     }
-    for (const machining::Mode& mode : modes_at_cutter(input, solved))
-      modes.push_back({mode, fmt::format("{}", ++number)});
+    for (const input::NamedMode& mode : modes_at_cutter(input, solved)) modes.push_back(mode);
     if (input.machining->stability.places.empty() && // else it is asked for at each of them
         std::all_of(modes.begin(), modes.end(),
                     [](const machining::Mode& mode) { return mode.direction.head<2>().norm() < 1e-9; }))
@@ -135,11 +134,15 @@ double deepest(const input::Case& input, const std::vector<machining::Mode>& mod
 
 namespace {
 
-/// rad/s, of modes where they are the fastest along the path, by name.
-std::map<std::string, double> fastest(const input::Case& input, const std::vector<input::NamedMode>& modes) {
-  std::map<std::string, double> most;
+/// rad/s, of modes where they are the fastest along the path, by what they are of and their name.
+std::map<std::pair<machining::Mode::Of, std::string>, double>
+fastest(const input::Case& input, const std::vector<input::NamedMode>& modes) {
+  std::map<std::pair<machining::Mode::Of, std::string>, double> most;
   const auto add = [&](const std::vector<input::NamedMode>& there) {
-    for (const input::NamedMode& mode : there) most[mode.name] = std::max(most[mode.name], mode.omega());
+    for (const input::NamedMode& mode : there) {
+      double& omega = most[{mode.of, mode.name}];
+      omega = std::max(omega, mode.omega());
+    }
   };
   const std::vector<double>& places = input.machining->stability.places;
   if (places.empty()) add(modes);
@@ -167,12 +170,15 @@ std::vector<std::string> flank_doubts(const input::Case& input, const std::vecto
                       si_format(milling.cut.flank.recovery, "m"), si_format(thickest, "m")));
   if (input.analysis.type != input::Analysis::Type::stability) return doubts;
   const double slowest = milling.stability.speed_from;
-  for (const auto& [name, omega] : fastest(input, modes))
+  for (const auto& [mode, omega] : fastest(input, modes))
     if (const double wave = slowest * milling.cut.cutter.radius() / omega; contact > wave)
-      doubt("cutting.flank.land",
-            fmt::format("at {} mode {} leaves waves of {} a radian, expected longer ones than the contact of "
-                        "the land, {}: its damping is taken for that of long waves",
-                        speed_text(slowest), name, si_format(wave, "m"), si_format(contact, "m")));
+      doubt(
+          "cutting.flank.land",
+          fmt::format(
+              "at {} mode {} of the {} leaves waves of {} a radian, expected longer ones than the contact of "
+              "the land, {}: its damping is taken for that of long waves",
+              speed_text(slowest), mode.second, mode.first == machining::Mode::Of::tool ? "tool" : "part",
+              si_format(wave, "m"), si_format(contact, "m")));
   return doubts;
 }
 

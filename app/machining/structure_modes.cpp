@@ -84,23 +84,25 @@ bool is_felt(const machining::Eigenmodes& modes, Eigen::Index mode, const Vec3& 
 
 namespace {
 
-/// Modes of a part where some place moves as `rows` say, along axes of the cut.
-std::vector<machining::Mode> modes_along(const input::PartCase& part, const SolvedPart& solved,
-                                         const SparseMatrix& rows) {
+/// Modes of a part where some place moves as `rows` say, along axes of the cut; named by their numbers among
+/// all of them, as analysis.type = "modes" does.
+std::vector<input::NamedMode> modes_along(const input::PartCase& part, const SolvedPart& solved,
+                                          const SparseMatrix& rows) {
   const Eigen::MatrixXd motion = rows * solved.modes.shape;
-  std::vector<machining::Mode> modes;
+  std::vector<input::NamedMode> modes;
   for (Eigen::Index i = 0; i < solved.modes.count(); ++i) {
     const Vec3 shape = part.to_cutter * motion.col(i);
     const double omega = solved.modes.omega[i];
     if (is_felt(solved.modes, i, motion.col(i)))
-      modes.push_back(machining::mode_at(omega, part.damping_of(omega), shape, machining::Mode::Of::part));
+      modes.push_back({machining::mode_at(omega, part.damping_of(omega), shape, machining::Mode::Of::part),
+                       fmt::format("{}", i + 1)});
   }
   return modes;
 }
 
 } // namespace
 
-std::vector<machining::Mode> modes_at_cutter(const input::Case& input, const SolvedPart& solved) {
+std::vector<input::NamedMode> modes_at_cutter(const input::Case& input, const SolvedPart& solved) {
   return modes_along(*input.structure->part, solved, displacement_at_cutter(input, solved.part));
 }
 
@@ -124,9 +126,7 @@ std::vector<input::NamedMode> modes_met(const input::Case& input, double place) 
   }
   const SolvedPart solved(input, std::move(part), presence);
   const SparseMatrix rows = displacement_on_the_way(input, solved.part, place);
-  int number = 0;
-  for (const machining::Mode& mode : modes_along(read, solved, rows))
-    there.push_back({mode, fmt::format("{}", ++number)});
+  for (const input::NamedMode& mode : modes_along(read, solved, rows)) there.push_back(mode);
   return there;
 }
 

@@ -38,7 +38,7 @@ struct SolvedPart {
 };
 
 /// Modes of a part as its cutter sees them, along axes of the cut.
-std::vector<machining::Mode> modes_at_cutter(const input::Case& input, const SolvedPart& part);
+std::vector<input::NamedMode> modes_at_cutter(const input::Case& input, const SolvedPart& part);
 /// Those that a cutter meets which has gone on by `place`, m, along its path: of the case as they are there,
 /// and of its [part], which has lost behind the cutter what `stability.takes` says. Throws InputError.
 std::vector<input::NamedMode> modes_met(const input::Case& input, double place);
