@@ -97,6 +97,18 @@ std::unique_ptr<Session> machining_run(const input::Case& input, const RunOption
   return std::make_unique<StabilityRun>(input, options, observer);
 }
 
+namespace {
+
+/// Whether any of them moves across the axis of the cutter: a flat end that moves along it cuts the same
+/// chips.
+bool move_across(const std::vector<input::NamedMode>& modes) {
+  constexpr double still = 1e-6; // directions of a solved part have rounding of some 1e-9
+  return std::any_of(modes.begin(), modes.end(),
+                     [](const machining::Mode& mode) { return mode.direction.head<2>().norm() >= still; });
+}
+
+} // namespace
+
 std::vector<input::NamedMode> modes_of(const input::Case& input) {
   std::vector<input::NamedMode> modes = input.machining->modes;
   if (input.structure->part) {
@@ -112,9 +124,9 @@ std::vector<input::NamedMode> modes_of(const input::Case& input) {
       return modes;
     }
     for (const input::NamedMode& mode : modes_at_cutter(input, solved)) modes.push_back(mode);
-    if (input.machining->stability.places.empty() && // else it is asked for at each of them
-        std::all_of(modes.begin(), modes.end(),
-                    [](const machining::Mode& mode) { return mode.direction.head<2>().norm() < 1e-9; }))
+    const bool at_places = input.analysis.type == input::Analysis::Type::stability &&
+                           !input.machining->stability.places.empty(); // modes_at_places() asks there
+    if (!at_places && !move_across(modes))
       throw input.error("part.cutter",
                         "found a place where no mode of the part moves across the axis of the cutter, "
                         "expected one away from what is held");
@@ -124,12 +136,36 @@ std::vector<input::NamedMode> modes_of(const input::Case& input) {
 
 std::string speed_text(double speed) { return results::number_format(speed / rpm, 6) + " rpm"; }
 
-double deepest(const input::Case& input, const std::vector<machining::Mode>& modes) {
+std::vector<std::vector<input::NamedMode>> modes_at_places(const input::Case& input,
+                                                           const std::vector<input::NamedMode>& modes) {
+  const std::vector<double>& places = input.machining->stability.places;
+  if (places.empty()) return {modes};
+  std::vector<std::vector<input::NamedMode>> met;
+  for (const double place : places) met.push_back(modes_met(input, place));
+  if (std::none_of(met.begin(), met.end(), move_across))
+    throw input.error("stability.places",
+                      "found places at none of which a mode moves across the axis of the cutter, expected "
+                      "others: nothing can chatter there");
+  return met;
+}
+
+ModesAtPlaces chattering(const std::vector<std::vector<input::NamedMode>>& modes) {
+  ModesAtPlaces all;
+  for (const std::vector<input::NamedMode>& there : modes)
+    all.push_back(move_across(there) ? std::vector<machining::Mode>(there.begin(), there.end())
+                                     : std::vector<machining::Mode>{});
+  return all;
+}
+
+double deepest(const input::Case& input, const ModesAtPlaces& modes) {
   const input::MachiningCase& milling = *input.machining;
   if (milling.stability.depth_to) return *milling.stability.depth_to;
   constexpr double lobes = 6.0, beyond = 1.5;
-  const auto least = machining::zero_order_minimum(milling.cut, modes, milling.speed);
-  return std::max(least ? lobes * least->depth : 0.0, beyond * milling.axial_depth);
+  double least = infinite; // m
+  for (const std::vector<machining::Mode>& there : modes)
+    if (const auto limit = machining::zero_order_minimum(milling.cut, there, milling.speed))
+      least = std::min(least, limit->depth);
+  return std::max(least < infinite ? lobes * least : 0.0, beyond * milling.axial_depth);
 }
 
 namespace {
@@ -356,7 +392,7 @@ Checked check_machining(const input::Case& input) {
   const input::StabilityRange& range = milling.stability;
   add("chart", fmt::format("{} speeds from {} to {}, {} depths to {}", range.speeds,
                            speed_text(range.speed_from), speed_text(range.speed_to), range.depths,
-                           si_format(deepest(input, {modes.begin(), modes.end()}), "m")));
+                           si_format(deepest(input, chattering(modes_at_places(input, modes))), "m")));
   checked.numbers.emplace_back("modes", static_cast<double>(modes.size()));
   checked.numbers.emplace_back("points", static_cast<double>(range.speeds * range.depths));
   return checked;
