@@ -299,8 +299,8 @@ void describe(const input::Case& input, Checked& checked) {
   if (const auto& read = structure.part) {
     const machining::Part part = part_of(input);
     for (const input::PartPlace& place : read->places) displacement_at(input, part, place);
-    if (read->mapped && input.machining->blank)
-      check_mapped_workpiece(input);
+    if (read->mapped && input.machining)
+      check_mapped_workpiece(input, part);
     else if (read->cutter)
       displacement_at_cutter(input, part);
     if (input.machining)

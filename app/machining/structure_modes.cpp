@@ -169,9 +169,10 @@ struct CutAxes {
 
 } // namespace
 
-void check_mapped_workpiece(const input::Case& input) {
+void check_mapped_workpiece(const input::Case& input, const machining::Part& part) {
   const input::MachiningCase& milling = *input.machining;
-  if (!milling.blank) return; // the cutter lies in the part
+  if (milling.passes.empty()) displacement_at_cutter(input, part);
+  if (!milling.blank) return;
   const CutAxes axes(input);
   const Vec2 &low = milling.blank->low, &high = milling.blank->high;
   const Vec3 one = axes.in_part(Vec3(low.x(), low.y(), 0.0)),
@@ -192,7 +193,8 @@ std::unique_ptr<machining::FlexiblePart> flexible_part(const input::Case& input,
                                                        const machining::ProcessSettings& settings) {
   const auto& read = input.structure->part;
   if (!read || !read->mapped) return nullptr;
-  check_mapped_workpiece(input);
+  machining::Part of_case = part_of(input);
+  check_mapped_workpiece(input, of_case);
   const CutAxes axes(input);
   const machining::MillingCut& cut = input.machining->cut;
   const machining::Workpiece block = machining::workpiece_of(cut, settings);
@@ -204,19 +206,19 @@ std::unique_ptr<machining::FlexiblePart> flexible_part(const input::Case& input,
     return axes.turn_all(places.size()) * part.displacement_near(places);
   };
   if (read->newmark) {
-    machining::Part part = part_of(input);
-    SparseMatrix follow = moved_by(part);
-    machining::PresenceAtStep presence = [whole = part.presence()](std::int64_t) { return whole; };
+    SparseMatrix follow = moved_by(of_case);
+    machining::PresenceAtStep presence = [whole = of_case.presence()](std::int64_t) { return whole; };
     if (read->taking) {
       const auto tool = std::make_shared<const machining::TheoreticalTool>(
-          part, machining::MillingProcess(cut, {}, settings), [&](const Vec3& x) { return axes.in_cut(x); },
+          of_case, machining::MillingProcess(cut, {}, settings),
+          [&](const Vec3& x) { return axes.in_cut(x); },
           machining::TheoreticalTool::Intervals{read->taking->interval, read->taking->most});
       presence = [tool](std::int64_t step) { return tool->presence(step); };
     }
     return std::make_unique<machining::FlexiblePart>(
         std::move(map),
         std::make_unique<machining::NewmarkMotion>(
-            std::move(part), std::move(follow),
+            std::move(of_case), std::move(follow),
             machining::NewmarkMotion::Settings{read->taking ? read->taking->interval : 0,
                                                read->rayleigh.value_or(machining::Rayleigh{})},
             std::move(presence)));

@@ -53,8 +53,8 @@ std::string mode_row(const std::string& of, const std::string& name, const machi
 /// the tool takes of it is known from a rigid run.
 std::unique_ptr<machining::FlexiblePart> flexible_part(const input::Case& input,
                                                        const machining::ProcessSettings& settings);
-/// Throws InputError where the workpiece of passes has nothing in common with the part that they are mapped
-/// into.
-void check_mapped_workpiece(const input::Case& input);
+/// Throws InputError where the cutter of a straight cut is not in the part, or the workpiece of passes has
+/// nothing in common with it.
+void check_mapped_workpiece(const input::Case& input, const machining::Part& part);
 
 } // namespace cnem::app
