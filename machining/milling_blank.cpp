@@ -2,7 +2,9 @@
 #include "core/error.hpp"
 #include "machining/milling_process.hpp"
 
+#include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace cnem::machining {
@@ -168,12 +170,14 @@ std::optional<double> MillingProcess::left_beside(std::size_t layer, double way,
     return of.matter(at, machined_side(along), cut_.cutter.radius() + beyond(cut_.cutter));
   };
   const std::vector<Interval> matter = beside(layer_[layer]);
-  if (matter.empty()) return std::nullopt;
-  constexpr double taken = 1e-9; // m
-  if (const std::vector<Interval> before = beside(stock);
-      !before.empty() && !(matter.back().low > before.back().low + taken))
-    return std::nullopt;
-  return r - matter.back().low;
+  const auto side = std::min_element(matter.begin(), matter.end(), [r](const Interval& a, const Interval& b) {
+    return std::abs(a.low - r) < std::abs(b.low - r);
+  });
+  if (side == matter.end()) return std::nullopt;
+  constexpr double taken = 1e-9;               // m
+  for (const Interval& before : beside(stock)) // it may be a thin wall: others lie behind
+    if (std::abs(before.low - side->low) <= taken) return std::nullopt;
+  return r - side->low;
 }
 
 } // namespace cnem::machining

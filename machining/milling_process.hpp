@@ -65,7 +65,8 @@ public:
   bool at_end() const;
   /// Makes a step: edges ask the dexels what they would remove until modes and forces agree, then they erase
   /// what they sweep. Throws DivergenceError where they do not agree, or the part folds, or a pass begins in
-  /// matter: everything is then as it was at the begin of the step.
+  /// matter: everything is then as it was at the begin of the step; in the first one of a pass after that
+  /// pass has begun: what vibrates has come to rest, and a hole to begin in is there.
   ProcessStep advance();
 
   /// What evolves.
@@ -81,6 +82,8 @@ public:
   const FlexiblePart* part() const { return part_.get(); }           ///< none: it is rigid but for its modes
   Workpiece workpiece() const { return workpiece_of(cut_, settings_); }
   const std::vector<DexelLayer>& layers() const { return layer_; }
+  /// Whether a surface of a file bounds it: what its box holds beside that has never been matter.
+  bool has_surface() const { return settings_.blank && !settings_.blank->surface.triangles.empty(); }
   /// A layer of the workpiece of passes before any run; empty where an earlier one has left it, whose sides
   /// may all be machined.
   DexelLayer stock(std::size_t layer) const;
@@ -99,8 +102,9 @@ public:
   /// m, matter that is left on the machined side beyond where the teeth pass, at a place along x; negative:
   /// too much was taken. None where no matter is left.
   std::optional<double> left_at(std::size_t layer, double x) const;
-  /// The same beside the last pass, at a way along it, m. stock: of this layer; none where nothing of it has
-  /// been taken there: that is no machined side.
+  /// The same beside the last pass, at a way along it, m, of matter that begins the nearest to where the
+  /// teeth pass. stock: of this layer; none where nothing of it has been taken there: that is no machined
+  /// side.
   std::optional<double> left_beside(std::size_t layer, double way, const DexelLayer& stock) const;
   /// Unit vector from the axis to the machined side, of a way along another one.
   Vec2 machined_side(const Vec2& along) const {

@@ -5,7 +5,6 @@
 #include "results/si_format.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
@@ -27,6 +26,7 @@ MachinedSurface::MachinedSurface(const MillingProcess& process, const input::Mac
                to = end - turn;
   std::vector<double> places;
   for (double at = std::max(from, 0.0); at <= to; at += pitch) places.push_back(at);
+  asked_ = places.size();
   std::vector<bool> found(places.size(), false);
   for (std::size_t k = 0; k < process.layers().size(); ++k)
     if (process.cuts(k)) add_layer(k, places, found);
@@ -70,7 +70,7 @@ void MachinedSurface::add_layer(std::size_t layer, const std::vector<double>& pl
       if (const auto at = left(places[i] + part * (places[i + 1] - places[i]) / finer)) height.push_back(*at);
   layer_.push_back(layer);
   left_.push_back(std::move(here));
-  if (!height.empty()) texture_.push_back(texture_of(height));
+  texture_.push_back(height.empty() ? std::nullopt : std::optional(texture_of(height)));
 }
 
 MachinedSurface::Texture MachinedSurface::texture_of(const std::vector<double>& height) {
@@ -92,16 +92,21 @@ MachinedSurface::Texture MachinedSurface::texture_of(const std::vector<double>& 
 }
 
 std::string MachinedSurface::tell(results::RunStatus& status) const {
-  if (place_.size() < 2 || texture_.empty()) return "the path is too short for a surface";
-  const std::vector<Texture>& layers = texture_;
-  const auto zone = [&](const std::string& name, std::size_t from, std::size_t to) {
+  if (asked_ < 2) return "the path is too short for a surface";
+  if (place_.empty()) return "the last pass takes nothing of its side: there is no surface";
+  const auto zone = [&](const std::string& name, double from, double to) -> std::optional<Texture> {
+    std::vector<Texture> layers;
+    for (std::size_t i = 0; i < layer_.size(); ++i)
+      if (const double z = process_.height(layer_[i]); texture_[i] && z >= from && z < to)
+        layers.push_back(*texture_[i]);
+    if (layers.empty()) return std::nullopt;
     Texture all;
-    for (std::size_t k = from; k < to; ++k) {
-      all.Ra += layers[k].Ra / static_cast<double>(to - from);
-      all.Rz += layers[k].Rz / static_cast<double>(to - from);
-      all.peak_to_valley = std::max(all.peak_to_valley, layers[k].peak_to_valley);
-      if (std::abs(layers[k].location_error) > std::abs(all.location_error))
-        all.location_error = layers[k].location_error;
+    for (const Texture& layer : layers) {
+      all.Ra += layer.Ra / static_cast<double>(layers.size());
+      all.Rz += layer.Rz / static_cast<double>(layers.size());
+      all.peak_to_valley = std::max(all.peak_to_valley, layer.peak_to_valley);
+      if (std::abs(layer.location_error) > std::abs(all.location_error))
+        all.location_error = layer.location_error;
     }
     for (const auto& [what, value] : {std::pair{"Ra", all.Ra},
                                       {"Rz", all.Rz},
@@ -110,14 +115,25 @@ std::string MachinedSurface::tell(results::RunStatus& status) const {
       status.add_metric(fmt::format("{}.{}[m]", name, what), value);
     return all;
   };
-  const Texture whole = zone("milling", 0, layers.size());
-  if (layers.size() >= 3) {
-    const std::array<std::size_t, 4> third{0, layers.size() / 3, 2 * layers.size() / 3, layers.size()};
-    for (const auto& [k, name] : {std::pair{0U, "bottom"}, {1U, "middle"}, {2U, "top"}})
-      zone(fmt::format("milling.{}", name), third[k], third[k + 1]);
+  const std::optional<Texture> whole = zone("milling", -infinite, infinite);
+  if (!whole) return "the machined side is too short for a surface";
+  double low = infinite, high = -infinite; // m, of what the last pass reaches
+  int reached = 0;
+  for (std::size_t k = 0; k < process_.layers().size(); ++k)
+    if (process_.cuts(k)) {
+      const machining::Slice& slice = process_.slices()[k];
+      low = std::min(low, slice.low);
+      high = std::max(high, slice.low + slice.thickness);
+      ++reached;
+    }
+  const double third = (high - low) / 3.0;
+  if (reached >= 3) {
+    zone("milling.bottom", low, low + third);
+    zone("milling.middle", low + third, high - third);
+    zone("milling.top", high - third, high);
   }
   return fmt::format("the surface is {} from peak to valley along the feed, and off its place by {}",
-                     si_format(whole.peak_to_valley, "m"), si_format(whole.location_error, "m"));
+                     si_format(whole->peak_to_valley, "m"), si_format(whole->location_error, "m"));
 }
 
 std::string MachinedSurface::csv() const {
@@ -150,7 +166,10 @@ std::string MachinedSurface::vtk() const {
   text += fmt::format("POINT_DATA {}\nSCALARS left_m double 1\nLOOKUP_TABLE default\n",
                       place_.size() * layer_.size());
   for (const std::vector<double>& row : left_)
-    for (const double left : row) text += fmt::format("{:.9g}\n", left);
+    for (const double left : row) text += fmt::format("{:.9g}\n", std::isfinite(left) ? left : 0.0);
+  text += "SCALARS machined int 1\nLOOKUP_TABLE default\n";
+  for (const std::vector<double>& row : left_)
+    for (const double left : row) text += std::isfinite(left) ? "1\n" : "0\n";
   return text;
 }
 

@@ -103,12 +103,24 @@ std::unique_ptr<Session> machining_run(const input::Case& input, const RunOption
   return std::make_unique<StabilityRun>(input, options, observer);
 }
 
+namespace {
+
+/// Whether any of them moves across the axis of the cutter: a flat end that moves along it cuts the same
+/// chips.
+bool move_across(const std::vector<input::NamedMode>& modes) {
+  constexpr double still = 1e-6; // directions of a solved part have rounding of some 1e-9
+  return std::any_of(modes.begin(), modes.end(),
+                     [](const machining::Mode& mode) { return mode.direction.head<2>().norm() >= still; });
+}
+
+} // namespace
+
 std::vector<input::NamedMode> modes_of(const input::Case& input) {
   std::vector<input::NamedMode> modes = input.machining->modes;
   if (input.structure->part) {
-    int number = 0;
     const SolvedPart solved(input);
     if (input.structure->part->mapped) { // all of them deform it; what they do at one place is not asked
+      int number = 0;
       for (const double omega : solved.modes.omega)
         modes.push_back({machining::Mode{.of = machining::Mode::Of::part,
                                          .frequency = omega / machining::full_turn,
@@ -117,11 +129,10 @@ std::vector<input::NamedMode> modes_of(const input::Case& input) {
                          fmt::format("{}", ++number)});
       return modes;
     }
-    for (const machining::Mode& mode : modes_at_cutter(input, solved))
-      modes.push_back({mode, fmt::format("{}", ++number)});
-    if (input.machining->stability.places.empty() && // else it is asked for at each of them
-        std::all_of(modes.begin(), modes.end(),
-                    [](const machining::Mode& mode) { return mode.direction.head<2>().norm() < 1e-9; }))
+    for (const input::NamedMode& mode : modes_at_cutter(input, solved)) modes.push_back(mode);
+    const bool at_places = input.analysis.type == input::Analysis::Type::stability &&
+                           !input.machining->stability.places.empty(); // modes_at_places() asks there
+    if (!at_places && !move_across(modes))
       throw input.error("part.cutter",
                         "found a place where no mode of the part moves across the axis of the cutter, "
                         "expected one away from what is held");
@@ -131,21 +142,49 @@ std::vector<input::NamedMode> modes_of(const input::Case& input) {
 
 std::string speed_text(double speed) { return results::number_format(speed / rpm, 6) + " rpm"; }
 
-double deepest(const input::Case& input, const std::vector<machining::Mode>& modes) {
+std::vector<std::vector<input::NamedMode>> modes_at_places(const input::Case& input,
+                                                           const std::vector<input::NamedMode>& modes) {
+  const std::vector<double>& places = input.machining->stability.places;
+  if (places.empty()) return {modes};
+  std::vector<std::vector<input::NamedMode>> met;
+  for (const double place : places) met.push_back(modes_met(input, place));
+  if (std::none_of(met.begin(), met.end(), move_across))
+    throw input.error("stability.places",
+                      "found places at none of which a mode moves across the axis of the cutter, expected "
+                      "others: nothing can chatter there");
+  return met;
+}
+
+ModesAtPlaces chattering(const std::vector<std::vector<input::NamedMode>>& modes) {
+  ModesAtPlaces all;
+  for (const std::vector<input::NamedMode>& there : modes)
+    all.push_back(move_across(there) ? std::vector<machining::Mode>(there.begin(), there.end())
+                                     : std::vector<machining::Mode>{});
+  return all;
+}
+
+double deepest(const input::Case& input, const ModesAtPlaces& modes) {
   const input::MachiningCase& milling = *input.machining;
   if (milling.stability.depth_to) return *milling.stability.depth_to;
   constexpr double lobes = 6.0, beyond = 1.5;
-  const auto least = machining::zero_order_minimum(milling.cut, modes, milling.speed);
-  return std::max(least ? lobes * least->depth : 0.0, beyond * milling.axial_depth);
+  double least = infinite; // m
+  for (const std::vector<machining::Mode>& there : modes)
+    if (const auto limit = machining::zero_order_minimum(milling.cut, there, milling.speed))
+      least = std::min(least, limit->depth);
+  return std::max(least < infinite ? lobes * least : 0.0, beyond * milling.axial_depth);
 }
 
 namespace {
 
-/// rad/s, of modes where they are the fastest along the path, by name.
-std::map<std::string, double> fastest(const input::Case& input, const std::vector<input::NamedMode>& modes) {
-  std::map<std::string, double> most;
+/// rad/s, of modes where they are the fastest along the path, by what they are of and their name.
+std::map<std::pair<machining::Mode::Of, std::string>, double>
+fastest(const input::Case& input, const std::vector<input::NamedMode>& modes) {
+  std::map<std::pair<machining::Mode::Of, std::string>, double> most;
   const auto add = [&](const std::vector<input::NamedMode>& there) {
-    for (const input::NamedMode& mode : there) most[mode.name] = std::max(most[mode.name], mode.omega());
+    for (const input::NamedMode& mode : there) {
+      double& omega = most[{mode.of, mode.name}];
+      omega = std::max(omega, mode.omega());
+    }
   };
   const std::vector<double>& places = input.machining->stability.places;
   if (places.empty()) add(modes);
@@ -173,12 +212,15 @@ std::vector<std::string> flank_doubts(const input::Case& input, const std::vecto
                       si_format(milling.cut.flank.recovery, "m"), si_format(thickest, "m")));
   if (input.analysis.type != input::Analysis::Type::stability) return doubts;
   const double slowest = milling.stability.speed_from;
-  for (const auto& [name, omega] : fastest(input, modes))
+  for (const auto& [mode, omega] : fastest(input, modes))
     if (const double wave = slowest * milling.cut.cutter.radius() / omega; contact > wave)
-      doubt("cutting.flank.land",
-            fmt::format("at {} mode {} leaves waves of {} a radian, expected longer ones than the contact of "
-                        "the land, {}: its damping is taken for that of long waves",
-                        speed_text(slowest), name, si_format(wave, "m"), si_format(contact, "m")));
+      doubt(
+          "cutting.flank.land",
+          fmt::format(
+              "at {} mode {} of the {} leaves waves of {} a radian, expected longer ones than the contact of "
+              "the land, {}: its damping is taken for that of long waves",
+              speed_text(slowest), mode.second, mode.first == machining::Mode::Of::tool ? "tool" : "part",
+              si_format(wave, "m"), si_format(contact, "m")));
   return doubts;
 }
 
@@ -263,8 +305,8 @@ void describe(const input::Case& input, Checked& checked) {
   if (const auto& read = structure.part) {
     const machining::Part part = part_of(input);
     for (const input::PartPlace& place : read->places) displacement_at(input, part, place);
-    if (read->mapped && input.machining->blank)
-      check_mapped_workpiece(input);
+    if (read->mapped && input.machining)
+      check_mapped_workpiece(input, part);
     else if (read->cutter)
       displacement_at_cutter(input, part);
     if (input.machining)
@@ -356,7 +398,7 @@ Checked check_machining(const input::Case& input) {
   const input::StabilityRange& range = milling.stability;
   add("chart", fmt::format("{} speeds from {} to {}, {} depths to {}", range.speeds,
                            speed_text(range.speed_from), speed_text(range.speed_to), range.depths,
-                           si_format(deepest(input, {modes.begin(), modes.end()}), "m")));
+                           si_format(deepest(input, chattering(modes_at_places(input, modes))), "m")));
   checked.numbers.emplace_back("modes", static_cast<double>(modes.size()));
   checked.numbers.emplace_back("points", static_cast<double>(range.speeds * range.depths));
   return checked;

@@ -63,7 +63,14 @@ std::vector<std::string> milling_doubts(const input::Case& input, const std::vec
 /// Of tool and part: those of the case, and of its [part] where the cutter cuts, which is solved for it.
 std::vector<input::NamedMode> modes_of(const input::Case& input);
 std::string speed_text(double speed); ///< "8000 rpm" of rad/s
-/// The depth that charts and searches span, m.
-double deepest(const input::Case& input, const std::vector<machining::Mode>& modes);
+/// [place] what cutters meet at stability.places, or `modes` without them. Throws InputError where none of
+/// them moves across the axis of the cutter at any place.
+std::vector<std::vector<input::NamedMode>> modes_at_places(const input::Case& input,
+                                                           const std::vector<input::NamedMode>& modes);
+/// [place] the same without names; none where none moves across the axis: nothing chatters there.
+using ModesAtPlaces = std::vector<std::vector<machining::Mode>>;
+ModesAtPlaces chattering(const std::vector<std::vector<input::NamedMode>>& modes);
+/// The depth that charts and searches span, m: by the least limit of zero order of all places.
+double deepest(const input::Case& input, const ModesAtPlaces& modes);
 
 } // namespace cnem::app

@@ -145,22 +145,11 @@ void StabilityRun::write_files() {
 bool StabilityRun::solve() {
   const input::MachiningCase& milling = *input_.machining;
   const input::StabilityRange& range = milling.stability;
-  std::vector<machining::Mode> modes = plain_modes();
-  double most = 0.0, weakest = 0.0; // m, depth, place along the path
-  if (range.places.empty())
-    most = deepest(input_, modes);
-  else {
-    std::vector<std::vector<machining::Mode>> there;
-    most = infinite;
-    for (const double place : range.places) {
-      met_.push_back(modes_met(input_, place));
-      there.emplace_back(met_.back().begin(), met_.back().end());
-      if (!there.back().empty()) most = std::min(most, deepest(input_, there.back()));
-    }
-    if (!(most < infinite))
-      throw input_.error("stability.places",
-                         "found places at none of which a mode moves, expected others: nothing can chatter "
-                         "there");
+  met_ = modes_at_places(input_, modes_);
+  const ModesAtPlaces there = chattering(met_);
+  const double most = deepest(input_, there);
+  double weakest = 0.0; // m, place along the path
+  if (!range.places.empty()) {
     constexpr int fine = 25;
     places_ = machining::place_chart(milling.cut, there, range.places, range.speed_from, range.speed_to,
                                      range.speeds, most, std::min(range.depths, fine));
@@ -168,10 +157,9 @@ bool StabilityRun::solve() {
     weakest = places_->place[k];
     status_.add_metric("stability.weakest_place[m]", weakest);
     modes_ = met_[k];
-    modes = plain_modes();
   }
-  chart_ = machining::stability_chart(milling.cut, modes, range.speed_from, range.speed_to, range.speeds,
-                                      most, range.depths);
+  chart_ = machining::stability_chart(milling.cut, plain_modes(), range.speed_from, range.speed_to,
+                                      range.speeds, most, range.depths);
   judge();
   if (places_)
     status_.reason += fmt::format("; that is where the path is weakest, at {}", si_format(weakest, "m"));

@@ -19,7 +19,7 @@ private:
 
   machining::StabilityChart chart_;
   std::optional<machining::PlaceChart> places_;
-  std::vector<std::vector<input::NamedMode>> met_; ///< [place]
+  std::vector<std::vector<input::NamedMode>> met_; ///< [place] modes_at_places()
 };
 
 } // namespace cnem::app

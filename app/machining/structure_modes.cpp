@@ -84,23 +84,25 @@ bool is_felt(const machining::Eigenmodes& modes, Eigen::Index mode, const Vec3& 
 
 namespace {
 
-/// Modes of a part where some place moves as `rows` say, along axes of the cut.
-std::vector<machining::Mode> modes_along(const input::PartCase& part, const SolvedPart& solved,
-                                         const SparseMatrix& rows) {
+/// Modes of a part where some place moves as `rows` say, along axes of the cut; named by their numbers among
+/// all of them, as analysis.type = "modes" does.
+std::vector<input::NamedMode> modes_along(const input::PartCase& part, const SolvedPart& solved,
+                                          const SparseMatrix& rows) {
   const Eigen::MatrixXd motion = rows * solved.modes.shape;
-  std::vector<machining::Mode> modes;
+  std::vector<input::NamedMode> modes;
   for (Eigen::Index i = 0; i < solved.modes.count(); ++i) {
     const Vec3 shape = part.to_cutter * motion.col(i);
     const double omega = solved.modes.omega[i];
     if (is_felt(solved.modes, i, motion.col(i)))
-      modes.push_back(machining::mode_at(omega, part.damping_of(omega), shape, machining::Mode::Of::part));
+      modes.push_back({machining::mode_at(omega, part.damping_of(omega), shape, machining::Mode::Of::part),
+                       fmt::format("{}", i + 1)});
   }
   return modes;
 }
 
 } // namespace
 
-std::vector<machining::Mode> modes_at_cutter(const input::Case& input, const SolvedPart& solved) {
+std::vector<input::NamedMode> modes_at_cutter(const input::Case& input, const SolvedPart& solved) {
   return modes_along(*input.structure->part, solved, displacement_at_cutter(input, solved.part));
 }
 
@@ -124,9 +126,7 @@ std::vector<input::NamedMode> modes_met(const input::Case& input, double place) 
   }
   const SolvedPart solved(input, std::move(part), presence);
   const SparseMatrix rows = displacement_on_the_way(input, solved.part, place);
-  int number = 0;
-  for (const machining::Mode& mode : modes_along(read, solved, rows))
-    there.push_back({mode, fmt::format("{}", ++number)});
+  for (const input::NamedMode& mode : modes_along(read, solved, rows)) there.push_back(mode);
   return there;
 }
 
@@ -169,9 +169,10 @@ struct CutAxes {
 
 } // namespace
 
-void check_mapped_workpiece(const input::Case& input) {
+void check_mapped_workpiece(const input::Case& input, const machining::Part& part) {
   const input::MachiningCase& milling = *input.machining;
-  if (!milling.blank) return; // the cutter lies in the part
+  if (milling.passes.empty()) displacement_at_cutter(input, part);
+  if (!milling.blank) return;
   const CutAxes axes(input);
   const Vec2 &low = milling.blank->low, &high = milling.blank->high;
   const Vec3 one = axes.in_part(Vec3(low.x(), low.y(), 0.0)),
@@ -192,7 +193,8 @@ std::unique_ptr<machining::FlexiblePart> flexible_part(const input::Case& input,
                                                        const machining::ProcessSettings& settings) {
   const auto& read = input.structure->part;
   if (!read || !read->mapped) return nullptr;
-  check_mapped_workpiece(input);
+  machining::Part of_case = part_of(input);
+  check_mapped_workpiece(input, of_case);
   const CutAxes axes(input);
   const machining::MillingCut& cut = input.machining->cut;
   const machining::Workpiece block = machining::workpiece_of(cut, settings);
@@ -204,14 +206,13 @@ std::unique_ptr<machining::FlexiblePart> flexible_part(const input::Case& input,
     return axes.turn_all(places.size()) * part.displacement_near(places);
   };
   if (read->newmark) {
-    machining::Part part = part_of(input);
-    SparseMatrix follow = moved_by(part);
-    machining::PresenceAtStep presence = [whole = part.presence()](std::int64_t) { return whole; };
+    SparseMatrix follow = moved_by(of_case);
+    machining::PresenceAtStep presence = [whole = of_case.presence()](std::int64_t) { return whole; };
     if (read->taking) {
       const auto tool = [&] {
         try {
           return std::make_shared<const machining::TheoreticalTool>(
-              part, machining::MillingProcess(cut, {}, settings),
+              of_case, machining::MillingProcess(cut, {}, settings),
               [&](const Vec3& x) { return axes.in_cut(x); },
               machining::TheoreticalTool::Intervals{read->taking->interval, read->taking->most});
         } catch (const DivergenceError& error) {
@@ -224,7 +225,7 @@ std::unique_ptr<machining::FlexiblePart> flexible_part(const input::Case& input,
     return std::make_unique<machining::FlexiblePart>(
         std::move(map),
         std::make_unique<machining::NewmarkMotion>(
-            std::move(part), std::move(follow),
+            std::move(of_case), std::move(follow),
             machining::NewmarkMotion::Settings{read->taking ? read->taking->interval : 0,
                                                read->rayleigh.value_or(machining::Rayleigh{})},
             std::move(presence)));

@@ -38,7 +38,7 @@ struct SolvedPart {
 };
 
 /// Modes of a part as its cutter sees them, along axes of the cut.
-std::vector<machining::Mode> modes_at_cutter(const input::Case& input, const SolvedPart& part);
+std::vector<input::NamedMode> modes_at_cutter(const input::Case& input, const SolvedPart& part);
 /// Those that a cutter meets which has gone on by `place`, m, along its path: of the case as they are there,
 /// and of its [part], which has lost behind the cutter what `stability.takes` says. Throws InputError.
 std::vector<input::NamedMode> modes_met(const input::Case& input, double place);
@@ -53,8 +53,8 @@ std::string mode_row(const std::string& of, const std::string& name, const machi
 /// the tool takes of it is known from a rigid run.
 std::unique_ptr<machining::FlexiblePart> flexible_part(const input::Case& input,
                                                        const machining::ProcessSettings& settings);
-/// Throws InputError where the workpiece of passes has nothing in common with the part that they are mapped
-/// into.
-void check_mapped_workpiece(const input::Case& input);
+/// Throws InputError where the cutter of a straight cut is not in the part, or the workpiece of passes has
+/// nothing in common with it.
+void check_mapped_workpiece(const input::Case& input, const machining::Part& part);
 
 } // namespace cnem::app

@@ -15,22 +15,34 @@ namespace {
 /// Points of a cell by which its share is told, along each axis.
 constexpr int points = 8;
 
-/// Which points of cells lie in the workpiece, and whether they are still there.
+bool is_in(const std::vector<Interval>& matter, double y) {
+  return std::any_of(matter.begin(), matter.end(),
+                     [y](const Interval& of) { return y >= of.low && y <= of.high; });
+}
+
+/// Which points of cells lie in the workpiece, and whether they are still there. What earlier turns or an
+/// earlier run have taken was there.
 class Samples {
 public:
   Samples(const Part& part, const MillingProcess& process, const std::function<Vec3(const Vec3&)>& in_cut)
       : cells_(part.cells()) {
     const Workpiece block = process.workpiece();
-    const double thickness = (block.high.z() - block.low.z()) / static_cast<double>(process.layers().size());
     for (std::size_t c = 0; c < cells_; ++c)
       for (int n = 0; n < points * points * points; ++n) {
         const Vec3 share(n / (points * points) + 0.5, n / points % points + 0.5, n % points + 0.5);
         const Vec3 size = part.high(c) - part.low(c);
         const Vec3 at = in_cut(part.low(c) + size.cwiseProduct(share) / points);
         if (((at - block.low).array() <= 0.0).any() || ((block.high - at).array() <= 0.0).any()) continue;
-        const auto layer = static_cast<std::size_t>((at.z() - block.low.z()) / thickness);
-        line_[{std::min(layer, process.layers().size() - 1), at.x()}].emplace_back(c, at.y());
+        const auto above =
+            std::upper_bound(process.slices().begin() + 1, process.slices().end(), at.z(),
+                             [](double height, const Slice& slice) { return height < slice.low; });
+        line_[{index_of(above - process.slices().begin()) - 1, at.x()}].emplace_back(c, at.y());
       }
+    if (!process.has_surface()) return;
+    for (auto& [where, points_there] : line_) {
+      const std::vector<Interval> matter = process.layers()[where.first].matter(1, where.second);
+      std::erase_if(points_there, [&](const auto& point) { return !is_in(matter, point.second); });
+    }
   }
 
   /// [cell] of all points.
@@ -40,9 +52,7 @@ public:
       const auto& [layer, x] = where;
       const std::vector<Interval> matter = process.layers()[layer].matter(1, x);
       for (const auto& [cell, y] : points_there)
-        if (std::none_of(matter.begin(), matter.end(),
-                         [y = y](const Interval& of) { return y >= of.low && y <= of.high; }))
-          share[cell] += 1.0 / (points * points * points);
+        if (!is_in(matter, y)) share[cell] += 1.0 / (points * points * points);
     }
     return share;
   }

@@ -124,6 +124,23 @@ speeds = 3
 depths = 4
 )toml";
 
+/// Frequency, Hz, and stiffness, N/m, of "mode at place" in a modes.csv that holds modes of a part alone.
+std::map<std::string, std::pair<double, double>> modes_in(const std::filesystem::path& folder) {
+  std::map<std::string, std::pair<double, double>> met;
+  std::ifstream file(folder / results::files::modes);
+  std::string row;
+  std::getline(file, row);
+  while (std::getline(file, row)) {
+    std::vector<std::string> cell;
+    std::istringstream cells(row);
+    for (std::string text; std::getline(cells, text, ',');) cell.push_back(text);
+    EXPECT_EQ(cell.size(), 10U) << row;
+    EXPECT_EQ(cell[0], "part");
+    met[cell.at(1) + " at " + cell.at(4)] = {std::stod(cell.at(2)), std::stod(cell.at(5))};
+  }
+  return met;
+}
+
 } // namespace
 
 TEST(PartsAlongAPath, ModesAreThoseOfWhatTheCutterHasLeft) {
@@ -132,18 +149,7 @@ TEST(PartsAlongAPath, ModesAreThoseOfWhatTheCutterHasLeft) {
       input::read_case_text(std::string(stepped_wall) + lobes_along_it, "case.toml", {});
   ASSERT_EQ(app::run(lobes, {.output = folder.path(), .force = true, .threads = 1, .version = "test"}),
             Exit::done);
-  std::map<std::string, std::pair<double, double>> met; // "mode place": frequency, stiffness
-  std::ifstream file(folder.path() / results::files::modes);
-  std::string row;
-  std::getline(file, row);
-  while (std::getline(file, row)) {
-    std::vector<std::string> cell;
-    std::istringstream cells(row);
-    for (std::string text; std::getline(cells, text, ',');) cell.push_back(text);
-    ASSERT_EQ(cell.size(), 10U) << row;
-    EXPECT_EQ(cell[0], "part");
-    met[cell[1] + " at " + cell[4]] = {std::stod(cell[2]), std::stod(cell[5])};
-  }
+  const auto met = modes_in(folder.path());
   EXPECT_EQ(met.size(), 4U * 6U);
   for (const int place : {20, 50, 100}) { // analysis.type = "modes" of the same state
     const TemporaryFolder beside("modes");
@@ -169,6 +175,32 @@ at = "{0} 40 2 mm"
     }
   }
   EXPECT_LT(met.at("1 at 0.1").second, met.at("1 at 0").second);
+}
+
+TEST(PartsAlongAPath, ModesKeepTheirNumbersWhereOthersHaveNodes) { // midway along the wall
+  const auto met = [](const std::string& rest, const std::vector<std::string>& set) {
+    const TemporaryFolder folder("numbers");
+    const input::Case input = input::read_case_text(std::string(stepped_wall) + rest, "case.toml", set);
+    EXPECT_EQ(app::run(input, {.output = folder.path(), .force = true, .threads = 1, .version = "test"}),
+              Exit::done);
+    return modes_in(folder.path());
+  };
+  const auto lobes = // of the whole wall: what is taken begins behind that place
+      met(lobes_along_it, {"stability.places=50 mm", "part.zones.stock.from=60 20 2 mm"});
+  const auto modes = met(R"toml(
+[analysis]
+type = "modes"
+[part.points.P]
+at = "50 40 2 mm"
+)toml",
+                         {});
+  ASSERT_LT(lobes.size(), 6U) << "some have nodes there";
+  ASSERT_EQ(lobes.size(), modes.size());
+  for (const auto& [name, mode] : lobes) {
+    const std::string number = name.substr(0, name.find(' '));
+    EXPECT_NEAR(mode.first / modes.at(number + " at P").first, 1.0, 1e-6) << number;
+    EXPECT_NEAR(mode.second / modes.at(number + " at P").second, 1.0, 1e-6) << number;
+  }
 }
 
 } // namespace cnem::testing

@@ -4,6 +4,8 @@
 #include "tests/stl_text.hpp"
 
 #include <fstream>
+#include <iterator>
+#include <sstream>
 
 namespace cnem::testing {
 namespace {
@@ -54,18 +56,26 @@ TEST(MillingPasses, SurfaceIsThatOfTheLayersOfTheStock) {
 
 namespace {
 
-/// The way and what is left in each layer, of the last pass through a stock with these upper corners, mm; its
-/// lower ones are (0, -5, 0) to (10, 0, 0).
-results::HistoryTable surface_of_stock(const Vec3& low, const Vec3& high, results::RunStatus& status) {
-  const TemporaryFolder folder("stock"), output("surface");
-  std::ofstream(folder.path() / "stock.stl")
-      << stl_hexahedron({Vec3(0, -5, 0), Vec3(10, -5, 0), Vec3(0, 0, 0), Vec3(10, 0, 0), low,
+/// A stock with these upper corners, mm; its lower ones are (0, -5, 0) to (10, 0, 0).
+std::string leaning_stock(const Vec3& low, const Vec3& high) {
+  return stl_hexahedron({Vec3(0, -5, 0), Vec3(10, -5, 0), Vec3(0, 0, 0), Vec3(10, 0, 0), low,
                          Vec3(high.x(), low.y(), high.z()), Vec3(low.x(), high.y(), high.z()), high});
+}
+
+/// The way and what is left in each layer, of the last pass through a stock.
+results::HistoryTable surface_of(const std::string& stock, results::RunStatus& status,
+                                 std::string* grid = nullptr) {
+  const TemporaryFolder folder("stock"), output("surface");
+  std::ofstream(folder.path() / "stock.stl") << stock;
   std::ofstream(folder.path() / "case.toml") << over_the_stock;
   const input::Case input = input::read_case((folder.path() / "case.toml").string());
   EXPECT_EQ(app::run(input, {.output = output.path(), .force = true, .threads = 1, .version = "test"}),
             Exit::done);
   status = results::read_status(output.path());
+  if (grid) {
+    std::ifstream file(output.path() / results::files::machined_surface_grid);
+    grid->assign(std::istreambuf_iterator<char>(file), {});
+  }
   return results::read_history(output.path() / results::files::machined_surface);
 }
 
@@ -73,7 +83,8 @@ results::HistoryTable surface_of_stock(const Vec3& low, const Vec3& high, result
 
 TEST(MillingPasses, SurfaceIsWhereAnyLayerOfTheStockReaches) { // its ends lean: 2 mm at the height of 2 mm
   results::RunStatus status;
-  const results::HistoryTable surface = surface_of_stock({2, -5, 2}, {8, 0, 2}, status);
+  std::string grid;
+  const results::HistoryTable surface = surface_of(leaning_stock({2, -5, 2}, {8, 0, 2}), status, &grid);
   ASSERT_EQ(surface.column.size(), 5U) << "the way and four layers";
   const std::vector<double>& way = surface.column[0];
   for (std::size_t layer = 0; layer < 4; ++layer) {
@@ -88,6 +99,16 @@ TEST(MillingPasses, SurfaceIsWhereAnyLayerOfTheStockReaches) { // its ends lean:
       }
     }
   }
+  EXPECT_EQ(grid.find("nan"), std::string::npos) << "VTK's reader ends there";
+  const std::string mark = "SCALARS machined int 1\nLOOKUP_TABLE default\n";
+  ASSERT_NE(grid.find(mark), std::string::npos);
+  std::istringstream machined(grid.substr(grid.find(mark) + mark.size()));
+  for (std::size_t layer = 0; layer < 4; ++layer)
+    for (std::size_t i = 0; i < way.size(); ++i) {
+      int is = -1;
+      ASSERT_TRUE(machined >> is);
+      EXPECT_EQ(is, std::isnan(surface.column[layer + 1][i]) ? 0 : 1) << way[i];
+    }
   EXPECT_NEAR(way.front(), 8.25e-3, 0.05e-3);
   EXPECT_NEAR(way.back(), 17.75e-3, 0.05e-3);
   EXPECT_NEAR(status.metric("milling.peak_to_valley").value(), 0.2e-3 * 0.2e-3 / (8.0 * 6e-3), 1e-7);
@@ -95,10 +116,25 @@ TEST(MillingPasses, SurfaceIsWhereAnyLayerOfTheStockReaches) { // its ends lean:
 
 TEST(MillingPasses, SurfaceIsWhereTheCutterHasTakenMatter) { // a chamfer that it does not reach, of 3 mm
   results::RunStatus status;
-  const results::HistoryTable surface = surface_of_stock({0, -5, 2}, {10, -3, 2}, status);
+  const results::HistoryTable surface = surface_of(leaning_stock({0, -5, 2}, {10, -3, 2}), status);
   // The side at y = -1 mm is below the chamfer up to 2/3 mm: in the lowest layer alone.
   ASSERT_EQ(surface.column.size(), 2U);
+  EXPECT_TRUE(status.metric("milling.bottom.Ra"));
+  EXPECT_FALSE(status.metric("milling.middle.Ra")) << "a third of the height without a side";
   EXPECT_LT(std::abs(status.metric("milling.location_error").value()), 1e-6);
+}
+
+TEST(MillingPasses, SurfaceIsThatOfAThinWallAndNotOfARibBehindIt) { // of 0.3 mm when 1 mm is taken of it
+  results::RunStatus status;
+  surface_of(stl_box({0, -1.3, 0}, {10, 0, 2}) + stl_box({0, -5, 0}, {10, -1.6, 2}), status);
+  EXPECT_LT(std::abs(status.metric("milling.location_error").value()), 1e-6);
+  EXPECT_NEAR(status.metric("milling.peak_to_valley").value(), 0.2e-3 * 0.2e-3 / (8.0 * 6e-3), 1e-7);
+}
+
+TEST(MillingPasses, ThereIsNoSurfaceWhereNothingIsTaken) { // the stock lies out of reach
+  results::RunStatus status;
+  surface_of(stl_box({0, -5, 0}, {10, -1.2, 2}), status);
+  EXPECT_NE(status.reason.find("takes nothing of its side"), std::string::npos) << status.reason;
 }
 
 } // namespace cnem::testing

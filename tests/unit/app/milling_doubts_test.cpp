@@ -19,7 +19,7 @@ std::vector<std::string> doubts_of_lobes(std::vector<std::string> set) {
 
 bool tell_of_waves(const std::vector<std::string>& doubts) {
   return std::any_of(doubts.begin(), doubts.end(), [](const std::string& doubt) {
-    return doubt.find("mode wall leaves waves") != std::string::npos;
+    return doubt.find("mode wall of the part leaves waves") != std::string::npos;
   });
 }
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 namespace cnem::machining {
@@ -49,6 +50,58 @@ TEST(TheoreticalTool, TakesWhatARigidCutterHasPassed) {
       EXPECT_NEAR(end, 1.0 - 0.9 * 0.5, 1e-12) << c;
     else // under the disc at the end
       EXPECT_TRUE(end >= 1.0 - 0.9 * 0.5 && end < 1.0) << c;
+  }
+}
+
+namespace {
+
+/// Corner k lies beyond along x, y, z where bits 1, 2, 4 of k are set.
+TriangleSurface box_surface(const Vec3& low, const Vec3& high) {
+  TriangleSurface surface;
+  for (unsigned k = 0; k < 8; ++k)
+    surface.points.emplace_back((k & 1U ? high : low).x(), (k & 2U ? high : low).y(),
+                                (k & 4U ? high : low).z());
+  constexpr std::array<std::array<std::int32_t, 4>, 6> faces{
+      {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
+  for (const auto& [a, b, c, d] : faces) {
+    surface.triangles.push_back({a, b, c});
+    surface.triangles.push_back({a, c, d});
+  }
+  return surface;
+}
+
+} // namespace
+
+TEST(TheoreticalTool, TakesNothingBesideTheSurfaceOfItsWorkpiece) {
+  const PartSupport held{.axis = 1};
+  const Part part(
+      {.size = Vec3(20e-3, 2e-3, 4e-3), .divisions = {10, 2, 2}, .materials = {{1.0, 0.3, 1.0}}, .zones = {}},
+      PartElement::hexahedron_8, {&held, 1});
+  MillingCut cut = milling_cut(3, 600e6, 0.0, Engagement::Side::up, 0.5 / 12.0);
+  cut.feed = 2e-4;
+  // Teeth reach y = 0.75 mm of what begins at 0.5 mm in a box from 0.
+  const Vec2 from(-10e-3, 0.75e-3 - cut.cutter.radius()), to(32e-3, from.y());
+  ProcessSettings settings{.spindle = 800.0,
+                           .axial_depth = 2e-3,
+                           .start = ProcessSettings::Start::outside,
+                           .pitch = 1e-4,
+                           .layers = 2,
+                           .steps = 360,
+                           .passes = {ToolPath({CurvePiece{.from = from, .to = to, .name = ""}})},
+                           .blank = Blank{.low = Vec2::Zero(),
+                                          .high = Vec2(20e-3, 2e-3),
+                                          .height = 2e-3,
+                                          .surface = box_surface({0.0, 0.5e-3, 0.0}, {20e-3, 2e-3, 2e-3})}};
+  MillingProcess rigid(cut, {}, settings);
+  const std::int64_t end_step = rigid.motion().passes().back().end;
+  const TheoreticalTool tool(part, std::move(rigid),
+                             [](const Vec3& x) { return Vec3(x - 2e-3 * Vec3::UnitZ()); },
+                             {.interval = 5000, .most = 0.9});
+  for (std::size_t c = 0; c < part.cells(); ++c) {
+    const bool outer = part.low(c).y() < 0.5e-3 && part.low(c).z() > 1e-3;
+    EXPECT_EQ(tool.presence(0)[c], 1.0) << c;
+    // Points at 9/16 and 11/16 mm of eight across the cell.
+    EXPECT_NEAR(tool.presence(end_step)[c], outer ? 1.0 - 0.9 * 0.25 : 1.0, 1e-12) << c;
   }
 }
 
