@@ -21,15 +21,17 @@ public:
   Samples(const Part& part, const MillingProcess& process, const std::function<Vec3(const Vec3&)>& in_cut)
       : cells_(part.cells()) {
     const Workpiece block = process.workpiece();
-    const double thickness = (block.high.z() - block.low.z()) / static_cast<double>(process.layers().size());
+    const std::vector<Slice>& slices = process.slices();
     for (std::size_t c = 0; c < cells_; ++c)
       for (int n = 0; n < points * points * points; ++n) {
         const Vec3 share(n / (points * points) + 0.5, n / points % points + 0.5, n % points + 0.5);
         const Vec3 size = part.high(c) - part.low(c);
         const Vec3 at = in_cut(part.low(c) + size.cwiseProduct(share) / points);
         if (((at - block.low).array() <= 0.0).any() || ((block.high - at).array() <= 0.0).any()) continue;
-        const auto layer = static_cast<std::size_t>((at.z() - block.low.z()) / thickness);
-        line_[{std::min(layer, process.layers().size() - 1), at.x()}].emplace_back(c, at.y());
+        const auto above =
+            std::upper_bound(slices.begin() + 1, slices.end(), at.z(),
+                             [](double height, const Slice& slice) { return height < slice.low; });
+        line_[{index_of(above - slices.begin()) - 1, at.x()}].emplace_back(c, at.y());
       }
   }
 
