@@ -100,6 +100,14 @@ TEST(CuttingEdge, HasRadiusLengthLeadAndLagOfItsCutter) {
   }
 }
 
+TEST(CuttingEdge, HasALeadAtAHeight) {
+  for (const double corner : {0.0, 2e-3, 5e-3}) {
+    const Cutter cutter = formed(corner), other = traced(cutter, 6e-3);
+    for (const double z : {0.0, 0.7e-3, 1.9e-3, 3e-3, 6e-3, 7e-3})
+      EXPECT_NEAR(other.lead(z, z), cutter.lead(z, z), 0.6 * arc_degree) << corner << ' ' << z;
+  }
+}
+
 TEST(CuttingEdge, AnglesAreThoseOfTheFace) {
   const Cutter cutter = formed(0.0);
   for (const int rows : {24, 96})
