@@ -96,7 +96,8 @@ Chart energy_chart(const results::HistoryTable& history) {
                       "(ploughing), what damping loses, what the motion of a part loses with the matter of "
                       "its chips, and what modes and a part hold (kinetic, elastic)."};
   int colour = 0;
-  for (const char* name : {"spindle", "cutting", "ploughing", "damping", "chips", "kinetic", "elastic", "feed"})
+  for (const char* name :
+       {"spindle", "cutting", "ploughing", "damping", "chips", "kinetic", "elastic", "feed"})
     if (const int column = history.find(std::string("energy.") + name); column >= 0)
       chart.series.push_back({.label = name,
                               .x = history.column.front(),

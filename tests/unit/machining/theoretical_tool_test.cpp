@@ -63,16 +63,15 @@ TEST(TheoreticalTool, TakesLayersThatAreNotEquallyThick) {
     return ToolPath({CurvePiece{.from = Vec2(-8e-3, y), .to = Vec2(12e-3, y), .name = ""}}, tip);
   };
   // Half of the width over 0.5 mm; then, in the air, the tip at 0: layers from 0 to 0.5 and to 2 mm.
-  MillingProcess rigid(
-      cut, {},
-      {.spindle = 800.0,
-       .axial_depth = 2e-3,
-       .start = ProcessSettings::Start::outside,
-       .pitch = 1e-4,
-       .layers = 1,
-       .steps = 90,
-       .passes = {past(7e-3, 0.5e-3), past(9e-3, 0.0)},
-       .blank = Blank{.low = Vec2::Zero(), .high = Vec2(4e-3, 2e-3), .height = 2e-3}});
+  MillingProcess rigid(cut, {},
+                       {.spindle = 800.0,
+                        .axial_depth = 2e-3,
+                        .start = ProcessSettings::Start::outside,
+                        .pitch = 1e-4,
+                        .layers = 1,
+                        .steps = 90,
+                        .passes = {past(7e-3, 0.5e-3), past(9e-3, 0.0)},
+                        .blank = Blank{.low = Vec2::Zero(), .high = Vec2(4e-3, 2e-3), .height = 2e-3}});
   ASSERT_EQ(rigid.slices().size(), 2u);
   const std::int64_t end_step = rigid.motion().passes().back().end;
   const TheoreticalTool tool(part, std::move(rigid), [](const Vec3& x) { return x; },
