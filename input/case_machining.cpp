@@ -196,7 +196,7 @@ void read_machining(Setting& root, Case& result, Diagnostics& diagnostics) {
   result.machining = made;
   read.axial_depth = root.get<double>("milling.axial_depth");
   read.cut.cutter = read_cutter(*root.find("cutter"), result.path, read.axial_depth, diagnostics);
-  const double diameter = read.cut.cutter.diameter;
+  const double diameter = root.get<double>("cutter.diameter"); // of a rake face but about that of its edge
   root.set_default("milling.radial_depth", diameter);
   const Setting& milling = *root.find("milling");
   read_drive(milling, read, result.analysis.type, diagnostics);
@@ -206,6 +206,9 @@ void read_machining(Setting& root, Case& result, Diagnostics& diagnostics) {
     diagnostics.add(Mistake::range, depth.where, depth.path,
                     fmt::format("found {:g} m, expected at most cutter.diameter = {:g} m",
                                 read.cut.engagement.radial_depth, diameter));
+  double& radial_depth = read.cut.engagement.radial_depth;
+  radial_depth = radial_depth < diameter ? std::min(radial_depth, read.cut.cutter.diameter)
+                                         : read.cut.cutter.diameter; // a slot
   if (const Setting& feed = *milling.find("feed"); read.cut.feed >= 0.5 * diameter)
     diagnostics.add(Mistake::range, feed.where, feed.path,
                     fmt::format("found {:g} m, expected less than the radius of the cutter, {:g} m",

@@ -53,7 +53,7 @@ struct Cutter {
   /// m, length of the profile between two heights ≥ 0.
   double profile(double from, double to) const;
   /// rad between the axis and the normal of the profile, in the middle of its length between two heights: 90°
-  /// at the side, 0 at the tip of a ball.
+  /// at the side, 0 at the tip of a ball; at a height where both are one.
   double lead(double from, double to) const;
 
 private:

@@ -186,7 +186,13 @@ double CuttingEdge::length(double from, double to) const {
 }
 
 double CuttingEdge::lead(double from, double to) const {
-  const Vec3 low = at(std::max(from, bottom())), high = at(std::min(to, top()));
+  Vec3 low = at(from), high = at(to);
+  if (!(low.z() < high.z())) { // the straight part there; at a corner the one that ends in it
+    const std::size_t above = segment(from),
+                      k = above > 0 && !(points_[above].z() < from) ? above - 1 : above;
+    low = points_[k];
+    high = points_[k + 1];
+  }
   return std::atan2(high.z() - low.z(), from_axis(high) - from_axis(low));
 }
 

@@ -24,7 +24,8 @@ public:
   // Of its part between two heights, m, which it is cut to.
   double mean_radius(double from, double to) const; ///< m, over the height
   double length(double from, double to) const;      ///< m, of the profile, without the way round the axis
-  /// rad between the axis and the normal of the profile: its slope from end to end.
+  /// rad between the axis and the normal of the profile: its slope from end to end, at a height
+  /// that of its part there.
   double lead(double from, double to) const;
   /// rad, mean over the height of by how much it stands behind +y; at a height.
   double lag(double from, double to) const;

@@ -11,17 +11,18 @@ EdgeElements::EdgeElements(const MillingCut& cut, std::span<const Slice> slices,
   assert(!slices.empty() && step > 0.0 && step < 1.0);
   constexpr double rounding = 1e-6; // of the thickness
   for (const Slice& slice : slices) {
-    if (slice.middle() < tip) {
+    double low = slice.low - tip;
+    if (std::abs(low) < rounding * slice.thickness) low = 0.0;
+    const double high = low + slice.thickness;
+    const double begin = cut.cutter.edge ? std::max(0.0, cut.cutter.edge->bottom()) : 0.0;
+    if (slice.middle() < tip + begin) {
       ++lowest_;
       ++end_;
       layer_.emplace_back();
       continue;
     }
-    double low = slice.low - tip;
-    if (std::abs(low) < rounding * slice.thickness) low = 0.0;
-    const double high = low + slice.thickness;
     assert(low >= 0.0);
-    if (high > cut.cutter.top() + rounding * slice.thickness) {
+    if (slice.middle() - tip > cut.cutter.top()) {
       layer_.emplace_back();
       continue;
     }

@@ -35,7 +35,7 @@ public:
 
   std::size_t layers() const { return layer_.size(); }
   std::size_t teeth() const { return teeth_.size(); }
-  /// Whether a layer lies over the tip of the cutter and below the top of its edges: there are some in it.
+  /// Whether the middle of a layer lies over the tip and between the ends of the edges: there are some in it.
   bool reaches(std::size_t layer) const { return layer >= lowest_ && layer < end_; }
   /// m over the tip, the middle of a layer.
   double over_tip(std::size_t layer) const { return layer_[layer].low + 0.5 * layer_[layer].thickness; }

@@ -39,6 +39,7 @@ Workpiece workpiece_of(const MillingCut& cut, const ProcessSettings& settings) {
 }
 
 std::vector<Slice> slices_of(const ProcessSettings& settings) {
+  assert(!settings.blank || settings.blank->height > 0.0);
   std::vector<double> tips;
   for (const ToolPath& pass : settings.passes) tips.push_back(pass.tip());
   const double most = settings.axial_depth / settings.layers;

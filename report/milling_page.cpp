@@ -92,10 +92,12 @@ Chart energy_chart(const results::HistoryTable& history) {
               .y_label = "energy",
               .y_unit = "J",
               .series = {},
-              .note = "Spindle and feed put in what the cut takes, what damping loses, what a part that "
-                      "deforms takes and what modes hold."};
+              .note = "Spindle and feed put in what the cut takes, what flanks take on the surface "
+                      "(ploughing), what damping loses, what the motion of a part loses with the matter of "
+                      "its chips, and what modes and a part hold (kinetic, elastic)."};
   int colour = 0;
-  for (const char* name : {"spindle", "cutting", "damping", "part", "kinetic", "elastic", "feed"})
+  for (const char* name :
+       {"spindle", "cutting", "ploughing", "damping", "chips", "kinetic", "elastic", "feed"})
     if (const int column = history.find(std::string("energy.") + name); column >= 0)
       chart.series.push_back({.label = name,
                               .x = history.column.front(),

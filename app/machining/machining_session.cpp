@@ -258,6 +258,34 @@ std::vector<std::string> law_doubts(const input::Case& input, double thickest) {
   return doubts;
 }
 
+/// Passes that go below matter over the upper end of their edges, which no pass before them has cut.
+std::vector<std::string> reach_doubts(const input::Case& input) {
+  const input::MachiningCase& milling = *input.machining;
+  std::vector<std::string> doubts;
+  if (!milling.cut.cutter.edge || (!milling.passes.empty() && !milling.blank)) return doubts;
+  const double top = milling.cut.cutter.edge->top(),
+               slack = 0.5 * milling.axial_depth / milling.dexels.layers,
+               height = milling.blank ? milling.blank->height : milling.axial_depth;
+  std::vector<double> tips;
+  for (std::size_t pass = 0; pass < std::max<std::size_t>(1, milling.passes.size()); ++pass) {
+    const double tip = milling.passes.empty() ? 0.0 : milling.passes[pass].tip();
+    double cut = tip + top;
+    for (const double before : tips) // upwards
+      if (before <= cut + slack) cut = std::max(cut, before + top);
+    tips.insert(std::upper_bound(tips.begin(), tips.end(), tip), tip);
+    if (cut + slack >= height) continue;
+    doubts.push_back(
+        input
+            .error("cutter.rake_face",
+                   fmt::format("edges end {} over the tip, and in pass {} matter lies up to {} "
+                               "over it, which is not cut; expected a rake face that is as high, "
+                               "or passes from the top down",
+                               si_format(top, "m"), pass + 1, si_format(height - tip, "m")))
+            .what());
+  }
+  return doubts;
+}
+
 } // namespace
 
 std::vector<std::string> milling_doubts(const input::Case& input,
@@ -278,6 +306,7 @@ std::vector<std::string> milling_doubts(const input::Case& input,
   for (std::string& doubt : law_doubts(input, thickest)) doubts.push_back(std::move(doubt));
   for (std::string& doubt : flank_doubts(input, modes)) doubts.push_back(std::move(doubt));
   if (input.analysis.type != input::Analysis::Type::milling) return doubts;
+  for (std::string& doubt : reach_doubts(input)) doubts.push_back(std::move(doubt));
   constexpr double few = 5.0, periods = 20.0;
   if (milling.dexels.pitch > milling.cut.feed / few)
     doubts.push_back(

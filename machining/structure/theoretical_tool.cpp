@@ -27,6 +27,7 @@ public:
   Samples(const Part& part, const MillingProcess& process, const std::function<Vec3(const Vec3&)>& in_cut)
       : cells_(part.cells()) {
     const Workpiece block = process.workpiece();
+    const std::vector<Slice>& slices = process.slices();
     for (std::size_t c = 0; c < cells_; ++c)
       for (int n = 0; n < points * points * points; ++n) {
         const Vec3 share(n / (points * points) + 0.5, n / points % points + 0.5, n % points + 0.5);
@@ -34,9 +35,9 @@ public:
         const Vec3 at = in_cut(part.low(c) + size.cwiseProduct(share) / points);
         if (((at - block.low).array() <= 0.0).any() || ((block.high - at).array() <= 0.0).any()) continue;
         const auto above =
-            std::upper_bound(process.slices().begin() + 1, process.slices().end(), at.z(),
+            std::upper_bound(slices.begin() + 1, slices.end(), at.z(),
                              [](double height, const Slice& slice) { return height < slice.low; });
-        line_[{index_of(above - process.slices().begin()) - 1, at.x()}].emplace_back(c, at.y());
+        line_[{index_of(above - slices.begin()) - 1, at.x()}].emplace_back(c, at.y());
       }
     if (!process.has_surface()) return;
     for (auto& [where, points_there] : line_) {

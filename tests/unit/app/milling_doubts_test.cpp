@@ -1,10 +1,14 @@
 // What there is to doubt in milling cases.
 #include "app/run.hpp"
+#include "input/case_machining.hpp"
 #include "input/case_reader.hpp"
+#include "tests/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 
 namespace cnem::app {
 namespace {
@@ -31,6 +35,61 @@ TEST(MillingDoubts, FlanksAreComparedWithTheFastestModeAlongThePath) {
   EXPECT_FALSE(tell_of_waves(doubts_of_lobes({"stability.speed_from=1100 rpm", "stability.places=100 mm"})));
   EXPECT_TRUE(tell_of_waves(
       doubts_of_lobes({"stability.speed_from=1300 rpm", "modes.wall.frequency_along=1 0.97 1.2 0.84 0.8"})));
+}
+
+// An edge whose radius is a little off half of the diameter that is written cuts slots as wide as itself.
+TEST(MillingDoubts, ASlotOfARakeFaceIsThatOfItsEdge) {
+  const std::string path = std::string(CNEM_SOURCE_DIR) + "/tests/bad_input/milling_rake_face_too_short.toml";
+  for (const char* unit : {"0.9995 mm", "1.0005 mm"})
+    for (const char* depth : {"", "milling.radial_depth=12 mm"}) {
+      std::vector<std::string> set{"milling.axial_depth=4 mm", std::string("cutter.rake_face.unit=") + unit};
+      if (*depth) set.emplace_back(depth);
+      const machining::MillingCut cut = input::read_case(path, set).machining->cut;
+      EXPECT_NEAR(cut.cutter.diameter, 12e-3, 7e-6);
+      EXPECT_NE(cut.cutter.diameter, 12e-3);
+      EXPECT_EQ(cut.engagement.radial_depth, cut.cutter.diameter) << unit << ' ' << depth;
+    }
+}
+
+// The face of the file is 5 mm high, in a workpiece of 8 mm.
+TEST(MillingDoubts, PassesBelowMatterOverTheirEdgesAreTold) {
+  const cnem::testing::TemporaryFolder folder("rake_face_below_matter");
+  std::filesystem::copy_file(std::string(CNEM_SOURCE_DIR) + "/tests/bad_input/milling_rake_face.stl",
+                             folder.path() / "face.stl");
+  const auto told = [&](const std::vector<const char*>& tips) {
+    std::ofstream file(folder.path() / "case.toml");
+    file << R"toml(
+[analysis]
+type = "milling"
+[cutter]
+diameter = "12 mm"
+teeth = 3
+rake_face = { file = "face.stl" }
+[cutting.forces]
+law = "linear"
+Ktc = "600 MPa"
+[milling]
+speed = "8000 rpm"
+feed = "0.1 mm"
+axial_depth = "4 mm"
+workpiece = { from = "0 -10 mm", to = "40 0 mm", height = "8 mm" }
+)toml";
+    for (const char* tip : tips)
+      file << "[[milling.passes]]\nstart = \"-8 5 mm\"\npath = [{ to = \"48 5 mm\" }]\ntip = \"" << tip
+           << "\"\n";
+    file.close();
+    std::vector<std::string> found;
+    for (const std::string& doubt :
+         check(input::read_case((folder.path() / "case.toml").string()), {}).warnings)
+      if (doubt.find("edges end 5 mm over the tip") != std::string::npos) found.push_back(doubt);
+    return found;
+  };
+  EXPECT_TRUE(told({"4 mm", "0 mm"}).empty());
+  EXPECT_TRUE(told({"3.5 mm", "4 mm", "0 mm"}).empty());
+  const std::vector<std::string> low = told({"4 mm", "0 mm", "1 mm"}), first = told({"0 mm", "4 mm"});
+  EXPECT_TRUE(low.empty());
+  ASSERT_EQ(first.size(), 1U);
+  EXPECT_NE(first[0].find("in pass 1 matter lies up to 8 mm over it"), std::string::npos) << first[0];
 }
 
 } // namespace

@@ -100,6 +100,14 @@ TEST(CuttingEdge, HasRadiusLengthLeadAndLagOfItsCutter) {
   }
 }
 
+TEST(CuttingEdge, HasALeadAtAHeight) {
+  for (const double corner : {0.0, 2e-3, 5e-3}) {
+    const Cutter cutter = formed(corner), other = traced(cutter, 6e-3);
+    for (const double z : {0.0, 0.7e-3, 1.9e-3, 3e-3, 6e-3, 7e-3})
+      EXPECT_NEAR(other.lead(z, z), cutter.lead(z, z), 0.6 * arc_degree) << corner << ' ' << z;
+  }
+}
+
 TEST(CuttingEdge, AnglesAreThoseOfTheFace) {
   const Cutter cutter = formed(0.0);
   for (const int rows : {24, 96})
@@ -147,6 +155,41 @@ TEST(CuttingEdge, CutsAsTheCutterThatItIsOf) {
       EXPECT_NEAR(removed_too / removed, 1.0, 1e-3) << corner << ' ' << run_out;
       EXPECT_NEAR(power_too / power, 1.0, 1e-3) << corner << ' ' << run_out;
     }
+}
+
+TEST(CuttingEdge, EndsWithItsFaceToALayer) {
+  MillingCut cut = milling_cut(2, 767e6, 168.8e6, Engagement::Side::down, 0.25);
+  const Cutter flat = formed(0.0);
+  cut.cutter = traced(flat, 3e-3 - 1e-7); // of a file with single precision
+  const auto removed = [&](double axial_depth, int layers) {
+    MillingProcess process(cut, {},
+                           {.spindle = 800.0,
+                            .axial_depth = axial_depth,
+                            .length = 0.6e-3,
+                            .pitch = 1e-4,
+                            .layers = layers,
+                            .steps = 90});
+    double sum = 0.0;
+    while (!process.at_end()) {
+      const ProcessStep step = process.advance();
+      EXPECT_TRUE(step.force.allFinite() && std::isfinite(step.torque));
+      sum += step.removed;
+    }
+    return sum;
+  };
+  const double whole = removed(3e-3, 20);
+  EXPECT_GT(whole, 0.0);
+  cut.cutter = traced(flat, 6e-3);
+  EXPECT_NEAR(whole / removed(3e-3, 20), 1.0, 1e-4) << "the layer at the top is cut";
+  TriangleSurface face = rake_face(flat, 6e-3);
+  for (Vec3& point : face.points) point.z() += 8e-6; // two layers below the edge
+  cut.cutter.edge = std::make_shared<const CuttingEdge>(face);
+  const double step = full_turn / 90, thickness = 4e-6;
+  const EdgeElements edges(cut, slices(10 * thickness, thickness), 0.0, step);
+  for (std::size_t k = 0; k < edges.layers(); ++k) EXPECT_EQ(edges.reaches(k), k >= 2) << k;
+  const double above = removed(10 * thickness, 10);
+  cut.cutter = traced(flat, 6e-3);
+  EXPECT_NEAR(above / removed(10 * thickness, 10), 0.8, 1e-3) << "layers below the edge stay";
 }
 
 TEST(CuttingEdge, RefusesWhatIsNoRakeFace) {

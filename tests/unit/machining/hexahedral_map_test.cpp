@@ -259,7 +259,7 @@ ProcessSettings round_a_corner(const std::optional<DriveTables>& drive) {
           .layers = 3,
           .steps = 90,
           .passes = std::move(passes),
-          .blank = Blank{.low = Vec2(0.0, -6e-3), .high = Vec2(4e-3, 0.0)},
+          .blank = Blank{.low = Vec2(0.0, -6e-3), .high = Vec2(4e-3, 0.0), .height = 2e-3},
           .drive = drive};
 }
 

@@ -105,4 +105,32 @@ TEST(TheoreticalTool, TakesNothingBesideTheSurfaceOfItsWorkpiece) {
   }
 }
 
+TEST(TheoreticalTool, TakesLayersThatAreNotEquallyThick) {
+  const PartSupport held{.axis = 1};
+  const Part part(
+      {.size = Vec3(4e-3, 2e-3, 2e-3), .divisions = {2, 1, 4}, .materials = {{1.0, 0.3, 1.0}}, .zones = {}},
+      PartElement::hexahedron_8, {&held, 1});
+  MillingCut cut = milling_cut(3, 600e6, 0.0, Engagement::Side::down, 1.0 / 12.0);
+  cut.feed = 2e-4;
+  const auto past = [](double y, double tip) {
+    return ToolPath({CurvePiece{.from = Vec2(-8e-3, y), .to = Vec2(12e-3, y), .name = ""}}, tip);
+  };
+  // Half of the width over 0.5 mm; then, in the air, the tip at 0: layers from 0 to 0.5 and to 2 mm.
+  MillingProcess rigid(cut, {},
+                       {.spindle = 800.0,
+                        .axial_depth = 2e-3,
+                        .start = ProcessSettings::Start::outside,
+                        .pitch = 1e-4,
+                        .layers = 1,
+                        .steps = 90,
+                        .passes = {past(7e-3, 0.5e-3), past(9e-3, 0.0)},
+                        .blank = Blank{.low = Vec2::Zero(), .high = Vec2(4e-3, 2e-3), .height = 2e-3}});
+  ASSERT_EQ(rigid.slices().size(), 2u);
+  const std::int64_t end_step = rigid.motion().passes().back().end;
+  const TheoreticalTool tool(part, std::move(rigid), [](const Vec3& x) { return x; },
+                             {.interval = 1000, .most = 0.9});
+  for (std::size_t c = 0; c < part.cells(); ++c)
+    EXPECT_NEAR(tool.presence(end_step)[c], part.low(c).z() > 0.4e-3 ? 1.0 - 0.9 * 0.5 : 1.0, 1e-12) << c;
+}
+
 } // namespace cnem::machining
