@@ -76,4 +76,13 @@ std::shared_ptr<const machining::LeftWorkpiece> workpiece_of_earlier_run(const i
   return left;
 }
 
+std::optional<machining::Blank> blank_of(const input::Case& input) {
+  const auto left = workpiece_of_earlier_run(input);
+  if (!left) return input.machining->blank;
+  return machining::Blank{.low = left->layers.front().low(),
+                          .high = left->layers.front().high(),
+                          .height = left->height(),
+                          .left = left};
+}
+
 } // namespace cnem::app

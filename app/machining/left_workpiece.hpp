@@ -4,6 +4,7 @@
 #include "machining/blank.hpp"
 
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace cnem::app {
@@ -15,5 +16,9 @@ std::string left_workpiece_file(const machining::LeftWorkpiece& left);
 /// reason: there is no such run, it is no milling run of passes, it has not finished, its file is damaged or
 /// of another version of the program, or tips of passes lie over it.
 std::shared_ptr<const machining::LeftWorkpiece> workpiece_of_earlier_run(const input::Case& input);
+
+/// The workpiece of passes, also of an earlier run; none of a cut straight along x. Throws InputError as
+/// workpiece_of_earlier_run does.
+std::optional<machining::Blank> blank_of(const input::Case& input);
 
 } // namespace cnem::app

@@ -49,12 +49,6 @@ const std::vector<std::string> history_columns{"time[s]",
 
 machining::ProcessSettings settings_of(const input::Case& input) {
   const input::MachiningCase& milling = *input.machining;
-  std::optional<machining::Blank> blank = milling.blank;
-  if (const auto left = workpiece_of_earlier_run(input))
-    blank = {.low = left->layers.front().low(),
-             .high = left->layers.front().high(),
-             .height = left->height(),
-             .left = left};
   return {.spindle = milling.speed,
           .axial_depth = milling.axial_depth,
           .length = milling.length,
@@ -64,7 +58,7 @@ machining::ProcessSettings settings_of(const input::Case& input) {
           .layers = milling.dexels.layers,
           .steps = milling.dexels.steps,
           .passes = milling.passes,
-          .blank = std::move(blank),
+          .blank = blank_of(input),
           .drive = milling.drive};
 }
 

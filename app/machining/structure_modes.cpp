@@ -1,5 +1,6 @@
 #include "app/machining/structure_modes.hpp"
 
+#include "app/machining/left_workpiece.hpp"
 #include "core/error.hpp"
 #include "core/index.hpp"
 #include "machining/structure/newmark_motion.hpp"
@@ -171,12 +172,14 @@ struct CutAxes {
 
 void check_mapped_workpiece(const input::Case& input, const machining::Part& part) {
   const input::MachiningCase& milling = *input.machining;
-  if (milling.passes.empty()) displacement_at_cutter(input, part);
-  if (!milling.blank) return;
+  if (milling.passes.empty()) {
+    displacement_at_cutter(input, part);
+    return;
+  }
+  const machining::Blank blank = blank_of(input).value();
   const CutAxes axes(input);
-  const Vec2 &low = milling.blank->low, &high = milling.blank->high;
-  const Vec3 one = axes.in_part(Vec3(low.x(), low.y(), 0.0)),
-             other = axes.in_part(Vec3(high.x(), high.y(), milling.axial_depth));
+  const Vec3 one = axes.in_part(Vec3(blank.low.x(), blank.low.y(), 0.0)),
+             other = axes.in_part(Vec3(blank.high.x(), blank.high.y(), blank.height));
   // Feed and axis may be oblique in the part: a box around what they span is enough to tell a slip.
   const Vec3& size = input.structure->part->shape.size;
   const Vec3 from = one.cwiseMin(other), to = one.cwiseMax(other);
@@ -185,7 +188,7 @@ void check_mapped_workpiece(const input::Case& input, const machining::Part& par
       "part.cutter",
       fmt::format("puts the workpiece of the passes from ({:g}, {:g}, {:g}) to ({:g}, {:g}, {:g}) mm in the "
                   "part, beside it, expected some of it within: with milling.passes part.cutter is where "
-                  "their point (0, 0) lies, at the height of the tip",
+                  "their point (0, 0) lies, at the height 0 of tips",
                   1e3 * from.x(), 1e3 * from.y(), 1e3 * from.z(), 1e3 * to.x(), 1e3 * to.y(), 1e3 * to.z()));
 }
 
