@@ -4,6 +4,7 @@
 #include "core/index.hpp"
 #include "machining/gauss.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
