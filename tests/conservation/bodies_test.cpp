@@ -9,11 +9,11 @@
 namespace cnem::adapt {
 namespace {
 
-constexpr double spacing = 0.1;
+constexpr double body_spacing = 0.1;
 
 /// A blank that has been stretched, with its lower left corner there.
 Blank stretched(const Vec2& corner, double by) {
-  Blank b = blank(spacing);
+  Blank b = blank(body_spacing);
   for (Vec2& x : b.cloud.position) x = corner + Vec2(by * x.x(), x.y() / by);
   return b;
 }
@@ -29,7 +29,7 @@ Blank together(const Blank& one, const Blank& other) {
     for (NodeIndex& i : facet.node) i = as<NodeIndex>(n + index_of(i));
     b.cloud.facets.push_back(facet);
   }
-  b.weigh(spacing);
+  b.weigh(body_spacing);
   b.node.part = b.cloud.body;
   return b;
 }
