@@ -45,7 +45,7 @@ layers = 2
 steps = 180
 )toml";
 
-constexpr const char* block = "{ from = \"0 -12 mm\", to = \"6 0 mm\", height = \"4 mm\" }";
+constexpr const char* handed_block = "{ from = \"0 -12 mm\", to = \"6 0 mm\", height = \"4 mm\" }";
 
 std::string pass(const char* tip, const char* y) {
   return fmt::format(
@@ -93,8 +93,8 @@ private:
 
 TEST_F(MillingHandover, TwoRunsAreOneToTheBit) {
   const std::string first = pass("2", "4.5"), second = pass("0", "5");
-  ASSERT_EQ(run(written("both", block, first + second), "both"), Exit::done);
-  ASSERT_EQ(run(written("roughing", block, first), "roughing"), Exit::done);
+  ASSERT_EQ(run(written("both", handed_block, first + second), "both"), Exit::done);
+  ASSERT_EQ(run(written("roughing", handed_block, first), "roughing"), Exit::done);
   ASSERT_EQ(run(written("finishing", "{ run = \"roughing\" }", second), "finishing"), Exit::done);
 
   EXPECT_EQ(left("both"), left("finishing")) << "every piece of matter";
@@ -138,11 +138,11 @@ TEST_F(MillingHandover, RefusesWhatIsNoFinishedRunOfPasses) {
   expect(refusal("empty"), "no run is in that folder");
 
   const std::string few = "\n[stability]\nspeeds = 2\ndepths = 2\n";
-  ASSERT_EQ(run(written("lobes", block, pass("0", "5") + few, "stability"), "lobes"), Exit::done);
+  ASSERT_EQ(run(written("lobes", handed_block, pass("0", "5") + few, "stability"), "lobes"), Exit::done);
   expect(refusal("lobes"), "is of analysis.type = \"stability\"");
 
   const std::string inside = "\n[[milling.passes]]\nstart = \"3 -5 mm\"\npath = [{ to = \"14 -5 mm\" }]\n";
-  ASSERT_EQ(run(written("stuck", block, inside), "stuck"), Exit::diverged) << "in matter";
+  ASSERT_EQ(run(written("stuck", handed_block, inside), "stuck"), Exit::diverged) << "in matter";
   expect(refusal("stuck"), "did not finish (exit code 3");
   fs::remove(at("stuck") / results::files::status);
   expect(refusal("stuck"), "has not ended");
@@ -152,13 +152,13 @@ TEST_F(MillingHandover, RefusesWhatIsNoFinishedRunOfPasses) {
 }
 
 TEST_F(MillingHandover, DoesNotReplaceTheRunThatItGoesOnFrom) {
-  ASSERT_EQ(run(written("roughing", block, pass("2", "4.5")), "roughing"), Exit::done);
+  ASSERT_EQ(run(written("roughing", handed_block, pass("2", "4.5")), "roughing"), Exit::done);
   EXPECT_THROW(run(written("finishing", "{ run = \"roughing\" }", pass("0", "5")), "roughing"), InputError);
   EXPECT_TRUE(fs::exists(at("roughing") / input::left_workpiece));
 }
 
 TEST_F(MillingHandover, ARigidSpringPassHasTheSurfaceThatWasLeft) {
-  ASSERT_EQ(run(written("cut", block, pass("0", "5")), "cut"), Exit::done);
+  ASSERT_EQ(run(written("cut", handed_block, pass("0", "5")), "cut"), Exit::done);
   ASSERT_EQ(run(written("spring", "{ run = \"cut\" }", pass("0", "5")), "spring"), Exit::done);
   const auto error = [&](const std::string& name) {
     return results::read_status(at(name)).metric("milling.location_error");
@@ -168,11 +168,11 @@ TEST_F(MillingHandover, ARigidSpringPassHasTheSurfaceThatWasLeft) {
 }
 
 TEST_F(MillingHandover, ARunThatWasDoneAgainIsNoLongerWhatItWas) {
-  ASSERT_EQ(run(written("roughing", block, pass("2", "4.5")), "roughing"), Exit::done);
+  ASSERT_EQ(run(written("roughing", handed_block, pass("2", "4.5")), "roughing"), Exit::done);
   const input::Case next = written("finishing", "{ run = \"roughing\" }", pass("0", "5"));
   std::ofstream(folder() / "resolved.toml") << next.resolved;
   EXPECT_NO_THROW(input::read_case((folder() / "resolved.toml").string()));
-  ASSERT_EQ(run(written("roughing", block, pass("2", "4.4")), "roughing"), Exit::done);
+  ASSERT_EQ(run(written("roughing", handed_block, pass("2", "4.4")), "roughing"), Exit::done);
   try {
     input::read_case((folder() / "resolved.toml").string());
     FAIL();
