@@ -134,7 +134,7 @@ Masses bonded_blocks(double depth, const Vec2& square) {
   Bonds bonds;
   bonds.rest(scene.mass.size(), scene.facets.size());
   for (std::size_t f = 0; f < scene.facets.size(); ++f) {
-    const auto [a, b] = scene.facets[f].node;
+    const auto a = scene.facets[f].node[0], b = scene.facets[f].node[1];
     const auto on = [&](double y) { return scene.position(a).y() == y && scene.position(b).y() == y; };
     const bool below = on(1.0) && as<int>(a) < 25;
     if (!below && !(on(1.0 - depth) && as<int>(a) < 50)) continue;
