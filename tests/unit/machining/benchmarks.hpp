@@ -52,4 +52,16 @@ inline std::vector<Mode> spindle_modes() {
            .direction = Vec3::UnitY()}};
 }
 
+/// Al 7075-T6.
+inline CuttingLaw aluminium() {
+  LinearLaw law;
+  law.Ktc = 767e6;
+  law.Krc = 168.8e6;
+  law.Kac = 222e6;
+  law.Kte = 27.7e3;
+  law.Kre = 26.6e3;
+  law.Kae = 0.7e3;
+  return CuttingLaw(law);
+}
+
 } // namespace cnem::machining

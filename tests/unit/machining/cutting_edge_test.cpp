@@ -121,18 +121,12 @@ TEST(CuttingEdge, AnglesAreThoseOfTheFace) {
 }
 
 TEST(CuttingEdge, CutsAsTheCutterThatItIsOf) {
-  LinearLaw law;
-  law.Ktc = 767e6;
-  law.Krc = 168.8e6;
-  law.Kac = 222e6;
-  law.Kte = 27.7e3;
-  law.Kre = 26.6e3;
   for (const double corner : {0.0, 2e-3, 5e-3})
     for (const double run_out : {0.0, 15e-6}) {
       MillingCut cut;
       cut.cutter = formed(corner);
       cut.cutter.run_out = run_out;
-      cut.law = CuttingLaw(law);
+      cut.law = aluminium();
       cut.engagement = {Engagement::Side::down, 3e-3};
       cut.feed = 1e-4;
       MillingCut other = cut;

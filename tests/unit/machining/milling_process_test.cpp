@@ -12,18 +12,6 @@ namespace {
 
 using enum Engagement::Side;
 
-/// Al 7075-T6.
-CuttingLaw aluminium() {
-  LinearLaw law;
-  law.Ktc = 767e6;
-  law.Krc = 168.8e6;
-  law.Kac = 222e6;
-  law.Kte = 27.7e3;
-  law.Kre = 26.6e3;
-  law.Kae = 0.7e3;
-  return CuttingLaw(law);
-}
-
 MillingCut end_mill(Engagement::Side side) {
   MillingCut cut = milling_cut(3, 1.0, 0.0, side, 0.25);
   cut.cutter.helix = std::numbers::pi / 6.0;

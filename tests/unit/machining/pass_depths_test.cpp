@@ -16,13 +16,7 @@ using enum Engagement::Side;
 /// With a helix, all three forces, edge forces too.
 MillingCut helical_cut() {
   MillingCut cut = milling_cut(3, 767e6, 168.8e6, up, 1.0 / 12.0);
-  LinearLaw law;
-  law.Ktc = 767e6;
-  law.Krc = 168.8e6;
-  law.Kac = 222e6;
-  law.Kte = 27.7e3;
-  law.Kre = 26.6e3;
-  cut.law = CuttingLaw(law);
+  cut.law = aluminium();
   cut.cutter.helix = std::numbers::pi / 6.0;
   cut.feed = 2e-4;
   return cut;

@@ -12,6 +12,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 
 namespace cnem::testing {
 namespace {
@@ -87,21 +88,32 @@ Field pulled_back_flow(const DiscreteOperators<3>& op, const Field& position, co
   return flow;
 }
 
-TEST(ConductionInSpace, tetrahedra_give_what_the_pulled_back_operator_gives) {
-  const Cube cube;
-  DiscreteOperators<3> op = voronoi::linear_simplices<3>(cube.cloud, cube.tetrahedra);
-  const Field position = bent(cube.cloud);
-  Random random(3);
-  Field temperature(cube.cloud.position.size());
+/// K, from 200 to 900.
+Field random_temperatures(std::size_t nodes, std::uint64_t seed) {
+  Random random(seed);
+  Field temperature(nodes);
   for (double& value : temperature) value = random.uniform(200, 900);
-  const Field expected = pulled_back_flow(op, position, temperature);
+  return temperature;
+}
 
-  voronoi::keep_pattern(op);
-  EXPECT_TRUE(op.gradient[0].empty() && op.weighted_gradient[0].empty());
+Field flow_of(const DiscreteOperators<3>& op, const Field& position, const Field& temperature) {
   Conduction<3> conduction;
   conduction.set_operators(op, Field(index_of(op.points), k));
   Field flow(temperature.size(), 0.0);
   conduction.add_flow(position, temperature, flow);
+  return flow;
+}
+
+TEST(ConductionInSpace, tetrahedra_give_what_the_pulled_back_operator_gives) {
+  const Cube cube;
+  DiscreteOperators<3> op = voronoi::linear_simplices<3>(cube.cloud, cube.tetrahedra);
+  const Field position = bent(cube.cloud);
+  const Field temperature = random_temperatures(cube.cloud.position.size(), 3);
+  const Field expected = pulled_back_flow(op, position, temperature);
+
+  voronoi::keep_pattern(op);
+  EXPECT_TRUE(op.gradient[0].empty() && op.weighted_gradient[0].empty());
+  const Field flow = flow_of(op, position, temperature);
   double sum = 0.0;
   for (std::size_t i = 0; i < flow.size(); ++i) {
     EXPECT_NEAR(flow[i], expected[i], 1e-12 * k * 900) << i;
@@ -122,15 +134,10 @@ TEST(ConductionInSpace, rows_of_flat_tetrahedra_conduct_beside_the_others) {
     if (entries(p) == 4) { EXPECT_EQ(entries(p - 1), 4) << p; }
 
   const Field position = bent(body.cloud);
-  Random random(4);
-  Field temperature(body.cloud.position.size());
-  for (double& value : temperature) value = random.uniform(200, 900);
+  const Field temperature = random_temperatures(body.cloud.position.size(), 4);
   const Field expected = pulled_back_flow(op, position, temperature);
   voronoi::keep_pattern(op);
-  Conduction<3> conduction;
-  conduction.set_operators(op, Field(index_of(op.points), k));
-  Field flow(temperature.size(), 0.0);
-  conduction.add_flow(position, temperature, flow);
+  const Field flow = flow_of(op, position, temperature);
   for (std::size_t i = 0; i < flow.size(); ++i) EXPECT_NEAR(flow[i], expected[i], 1e-11 * k * 900) << i;
 }
 
