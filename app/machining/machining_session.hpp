@@ -56,9 +56,6 @@ std::unique_ptr<Session> machining_run(const input::Case& input, const RunOption
 /// What is known before anything is solved.
 Checked check_machining(const input::Case& input);
 
-/// What there is to doubt in a milling case, a sentence each.
-std::vector<std::string> milling_doubts(const input::Case& input, const std::vector<input::NamedMode>& modes);
-
 // For those who make them.
 /// Of tool and part: those of the case, and of its [part] where the cutter cuts, which is solved for it.
 std::vector<input::NamedMode> modes_of(const input::Case& input);
