@@ -3,6 +3,7 @@
 #include "core/machine/isa.hpp"
 #include "input/case_machining.hpp"
 #include "input/case_reader.hpp"
+#include "input/case_structure.hpp"
 #include "results/output_folder.hpp"
 #include "tests/restart/process.hpp"
 #include "tests/restart/runs.hpp"
@@ -18,29 +19,37 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Folders below cases/ that hold a case.
+/// Files below cases/: every case.toml, and what stands beside one and has state of its own.
 const std::vector<fs::path>& all_cases() {
-  static const std::vector<fs::path> folders = [] {
-    std::vector<fs::path> found;
-    for (const fs::directory_entry& entry :
-         fs::recursive_directory_iterator(fs::path(CNEM_SOURCE_DIR) / "cases"))
-      if (entry.path().filename() == "case.toml") found.push_back(entry.path().parent_path());
+  static const std::vector<fs::path> files = [] {
+    const fs::path root = fs::path(CNEM_SOURCE_DIR) / "cases";
+    std::vector<fs::path> found{root / "milling/wall_lobes/part.toml",
+                                root / "milling/wall_removal/passes.toml"};
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root))
+      if (entry.path().filename() == "case.toml") found.push_back(entry.path());
     std::sort(found.begin(), found.end());
     return found;
   }();
-  return folders;
+  return files;
+}
+
+/// As tests are called: two folders may hold a case of the same name.
+std::string name_of(const fs::path& input) {
+  const fs::path folder = input.parent_path();
+  const std::string name = folder.parent_path().filename().string() + "_" + folder.filename().string();
+  return input.stem() == "case" ? name : name + "_" + input.stem().string();
 }
 
 bool is_of(const fs::path& input, input::Analysis::Type type) {
-  return input::read_case((input / "case.toml").string()).analysis.type == type;
+  return input::read_case(input.string()).analysis.type == type;
 }
 bool is_explicit(const fs::path& input) { return is_of(input, input::Analysis::Type::explicit_dynamics); }
 
-bool is_in_space(const fs::path& input) { return input.parent_path().filename() == "three_dimensions"; }
-
-bool is_milling(const fs::path& input) {
-  return input::read_case((input / "case.toml").string()).analysis.of_milling();
+bool is_in_space(const fs::path& input) {
+  return input.parent_path().parent_path().filename() == "three_dimensions";
 }
+
+bool is_milling(const fs::path& input) { return input::read_case(input.string()).analysis.of_milling(); }
 
 /// The command line of a case, with pictures of one field where it has any, or a chart of few points.
 std::vector<std::string> run_with_few_pictures(const fs::path& input, const fs::path& output, int threads) {
@@ -50,7 +59,8 @@ std::vector<std::string> run_with_few_pictures(const fs::path& input, const fs::
   if (is_of(input, input::Analysis::Type::removal))
     words.insert(words.end(), {"--set", "removal.duration=4 ms"});
   else if (is_milling(input)) {
-    const auto machining = input::read_case((input / "case.toml").string()).machining;
+    const input::Case read = input::read_case(input.string());
+    const auto& machining = read.machining;
     const bool high = machining->blank && machining->blank->height > machining->axial_depth;
     words.insert(words.end(),
                  {"--set", "stability.speeds=9", "--set", "stability.depths=10", "--set",
@@ -60,6 +70,10 @@ std::vector<std::string> run_with_few_pictures(const fs::path& input, const fs::
     if (machining->passes.empty())
       words.insert(words.end(),
                    {"--set", fmt::format("milling.length={} mm", 1e3 * std::min(longest, turns * of_turn))});
+    else if (read.structure && read.structure->part &&
+             read.structure->part->newmark) // with all unknowns: short steps or none
+      words.insert(words.end(),
+                   {"--set", "milling.feed=1.5 mm", "--set", "dexels.steps=180", "--set", "dexels.layers=3"});
     else
       words.insert(words.end(), {"--set", "milling.feed=0.5 mm", "--set", "dexels.steps=60"});
   } else
@@ -94,10 +108,7 @@ TEST_P(Threads, do_not_change_the_bits) {
   expect_same_bits(all_cases()[GetParam()], std::string(isa_name(active_isa())));
 }
 INSTANTIATE_TEST_SUITE_P(Of, Threads, ::testing::Range(std::size_t{0}, all_cases().size()),
-                         [](const auto& index) { // two folders may hold a case of the same name
-                           const fs::path& folder = all_cases()[index.param];
-                           return folder.parent_path().filename().string() + "_" + folder.filename().string();
-                         });
+                         [](const auto& index) { return name_of(all_cases()[index.param]); });
 
 // A run that lost what it wrote last: its checkpoint is some steps older than its end.
 TEST_P(Threads, and_a_restart_do_not_change_the_bits) {
@@ -128,17 +139,17 @@ TEST_P(Threads, and_a_restart_do_not_change_the_bits) {
 TEST(ThreadsWith, every_instruction_set_do_not_change_the_bits) {
   for (const Isa isa : {Isa::baseline, Isa::avx2, Isa::avx512})
     if (isa_supported(isa) && isa != active_isa())
-      expect_same_bits(fs::path(CNEM_SOURCE_DIR) / "cases/verification/taylor_304l",
+      expect_same_bits(fs::path(CNEM_SOURCE_DIR) / "cases/verification/taylor_304l/case.toml",
                        std::string(isa_name(isa)));
 }
 
 TEST(ThreadsWith, pressure_exchange_do_not_change_the_bits) {
-  expect_same_bits(fs::path(CNEM_SOURCE_DIR) / "cases/verification/taylor_slab_copper",
+  expect_same_bits(fs::path(CNEM_SOURCE_DIR) / "cases/verification/taylor_slab_copper/case.toml",
                    std::string(isa_name(active_isa())), {"--set", "method.pressure_exchange=0.3"});
 }
 
 TEST(ThreadsWith, new_references_do_not_change_the_bits) {
-  expect_same_bits(fs::path(CNEM_SOURCE_DIR) / "cases/paper/shearing_sharp",
+  expect_same_bits(fs::path(CNEM_SOURCE_DIR) / "cases/paper/shearing_sharp/case.toml",
                    std::string(isa_name(active_isa())),
                    {"--set", "method.rereference.every=10", "--set", "time.max_steps=50"});
 }

@@ -3,6 +3,7 @@
 
 #include "tests/stl_text.hpp"
 
+#include <fmt/format.h>
 #include <fstream>
 #include <iterator>
 #include <sstream>
@@ -135,6 +136,27 @@ TEST(MillingPasses, ThereIsNoSurfaceWhereNothingIsTaken) { // the stock lies out
   results::RunStatus status;
   surface_of(stl_box({0, -5, 0}, {10, -1.2, 2}), status);
   EXPECT_NE(status.reason.find("takes nothing of its side"), std::string::npos) << status.reason;
+}
+
+TEST(MillingPasses, ChipGrowthIsThatBesideARigidRun) {
+  const TemporaryFolder folder("growth");
+  std::ofstream(folder.path() / "stock.stl") << stl_box({0, -5, 0}, {4, 0, 2});
+  std::string coarse = over_the_stock;
+  coarse.replace(coarse.find("steps = 720"), 11, "steps = 180");
+  const auto run = [&](const std::string& modes) {
+    std::ofstream(folder.path() / "case.toml") << coarse << modes;
+    return finish(input::read_case((folder.path() / "case.toml").string()));
+  };
+  const auto tool = [](const char* stiffness) {
+    return fmt::format("[modes.y]\nfrequency = \"700 Hz\"\ndamping = 0.05\nstiffness = \"{}\"\n"
+                       "direction = \"0 1 0\"\n",
+                       stiffness);
+  };
+  const double rigid = run("").metric("milling.thickest");
+  const FinishedRun stiff = run(tool("1e6 N/um")), soft = run(tool("3 N/um"));
+  EXPECT_NEAR(stiff.metric("milling.chip_growth"), 1.0, 1e-4);
+  EXPECT_NEAR(soft.metric("milling.chip_growth"), soft.metric("milling.thickest") / rigid, 1e-12);
+  EXPECT_GT(std::abs(soft.metric("milling.chip_growth") - 1.0), 0.01);
 }
 
 } // namespace cnem::testing

@@ -1,3 +1,5 @@
+#include "core/error.hpp"
+#include "core/fields/memory_archive.hpp"
 #include "machining/structure/newmark_motion.hpp"
 #include "tests/unit/structure/paper_plate.hpp"
 
@@ -181,4 +183,47 @@ TEST(NewmarkMotion, GoesToTheMotionOfFactorsInEachStepAsIntervalsGetShorter) {
   }
   EXPECT_LT(errors[0], 0.05);
   EXPECT_LT(errors[1], 0.5 * errors[0]);
+}
+
+TEST(NewmarkMotion, GoesOnBitForBitAfterARestart) {
+  const Part part = small_plate();
+  constexpr double dt = 1e-5;
+  const Eigen::VectorXd load = Eigen::VectorXd::Constant(6, 0.3);
+  const auto step = [&](NewmarkMotion& motion, double length) {
+    motion.begin(length);
+    motion.take(load);
+  };
+  const auto state = [](NewmarkMotion& motion) {
+    const EnergyLedger& energy = motion.energy();
+    motion.begin(dt);
+    std::vector<double> numbers{energy.work, energy.chips, energy.damping, energy.kinetic, energy.elastic};
+    const Eigen::VectorXd u = motion.ask(Eigen::VectorXd::Unit(6, 2));
+    numbers.insert(numbers.end(), u.begin(), u.end());
+    return numbers;
+  };
+  for (const int at : {1, 19, 20, 27}) { // within intervals, at the ends of some, in steps of either length
+    NewmarkMotion whole = thinning(part, dt, 10), rest = thinning(part, dt, 10);
+    for (int n = 0; n < at; ++n) step(whole, n % 2 ? dt : 2.0 * dt);
+    MemoryArchive checkpoint;
+    whole.archive(checkpoint);
+    checkpoint.recall();
+    rest.archive(checkpoint);
+    for (int n = at; n < at + 15; ++n) {
+      step(whole, n % 2 ? dt : 2.0 * dt);
+      step(rest, n % 2 ? dt : 2.0 * dt);
+    }
+    EXPECT_EQ(state(whole), state(rest)) << at;
+    EXPECT_GT(whole.energy().chips, 0.0);
+  }
+}
+
+TEST(NewmarkMotion, RefusesTheStateOfAnotherPart) {
+  const Part part = small_plate(), other(plate({2, 2, 2}), PartElement::hexahedron_8, {&base, 1});
+  NewmarkMotion motion = thinning(part, 1e-5, 10);
+  MemoryArchive checkpoint;
+  motion.archive(checkpoint);
+  checkpoint.recall();
+  NewmarkMotion another(other, other.displacement_at(corners), {.interval = 0, .damping = {}},
+                        [&](std::int64_t) { return other.presence(); });
+  EXPECT_THROW(another.archive(checkpoint), IoError);
 }
