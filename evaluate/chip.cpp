@@ -123,31 +123,72 @@ double signed_area(std::span<const Vec2> polygon) {
   return 0.5 * twice;
 }
 
-} // namespace
+/// [node] the facet that begins there.
+IndexedVector<NodeIndex, CloudFacetIndex>
+leaving_facets(const IndexedVector<CloudFacetIndex, Facet<2>>& facets, std::size_t nodes) {
+  IndexedVector<NodeIndex, CloudFacetIndex> leaving(nodes, CloudFacetIndex::none);
+  for (const CloudFacetIndex f : facets.indices()) leaving[facets[f].node[0]] = f;
+  return leaving;
+}
 
-CutOutline cut_outline(const IndexedVector<CloudFacetIndex, Facet<2>>& facets,
-                       std::span<const Vec2> position) {
-  IndexedVector<NodeIndex, CloudFacetIndex> leaving(position.size(), CloudFacetIndex::none);
-  NodeIndex nearest = NodeIndex::none;
-  for (const CloudFacetIndex f : facets.indices()) {
-    const NodeIndex i = facets[f].node[0];
-    leaving[i] = f;
-    if (!exists(nearest) || position[index_of(i)].squaredNorm() < position[index_of(nearest)].squaredNorm())
-      nearest = i;
-  }
+CutOutline loop_from(NodeIndex start, const IndexedVector<CloudFacetIndex, Facet<2>>& facets,
+                     const IndexedVector<NodeIndex, CloudFacetIndex>& leaving,
+                     std::span<const Vec2> position) {
   CutOutline outline;
-  if (!exists(nearest)) return outline;
-  NodeIndex i = nearest;
+  NodeIndex i = start;
   do {
     outline.node.push_back(i);
     outline.point.push_back(position[index_of(i)]);
     i = facets[leaving[i]].node[1];
-  } while (i != nearest);
-  if (signed_area(outline.point) > 0.0) { // counter-clockwise, but where the frame is a mirrored one
-    std::reverse(outline.node.begin() + 1, outline.node.end());
-    std::reverse(outline.point.begin() + 1, outline.point.end());
-  }
+  } while (i != start);
   return outline;
+}
+
+/// The other way round, from the same node on.
+void reverse(CutOutline& outline) {
+  std::reverse(outline.node.begin() + 1, outline.node.end());
+  std::reverse(outline.point.begin() + 1, outline.point.end());
+}
+
+} // namespace
+
+CutOutline cut_outline(const IndexedVector<CloudFacetIndex, Facet<2>>& facets,
+                       std::span<const Vec2> position) {
+  const auto leaving = leaving_facets(facets, position.size());
+  NodeIndex nearest = NodeIndex::none;
+  for (const Facet<2>& facet : facets) {
+    const NodeIndex i = facet.node[0];
+    if (!exists(nearest) || position[index_of(i)].squaredNorm() < position[index_of(nearest)].squaredNorm())
+      nearest = i;
+  }
+  if (!exists(nearest)) return {};
+  CutOutline outline = loop_from(nearest, facets, leaving, position);
+  if (signed_area(outline.point) > 0.0) reverse(outline); // but where the frame is a mirrored one
+  return outline;
+}
+
+std::vector<CutOutline> outlines_of_bodies(const IndexedVector<CloudFacetIndex, Facet<2>>& facets,
+                                           std::span<const Vec2> position) {
+  const auto leaving = leaving_facets(facets, position.size());
+  std::vector<CutOutline> loops;
+  std::vector<double> area;
+  IndexedVector<NodeIndex, char> seen(position.size(), 0);
+  for (const Facet<2>& facet : facets) {
+    if (seen[facet.node[0]]) continue;
+    loops.push_back(loop_from(facet.node[0], facets, leaving, position));
+    area.push_back(signed_area(loops.back().point));
+    for (const NodeIndex i : loops.back().node) seen[i] = 1;
+  }
+  // Holes go round the other way than the loop with the largest area, which is that of a body.
+  const auto larger = [](double a, double b) { return std::abs(a) < std::abs(b); };
+  const auto largest = std::max_element(area.begin(), area.end(), larger);
+  std::vector<CutOutline> bodies;
+  for (std::size_t k = 0; k < loops.size(); ++k) {
+    if (area[k] * *largest <= 0.0) continue;
+    if (area[k] > 0.0) reverse(loops[k]);
+    bodies.push_back(std::move(loops[k]));
+  }
+  return bodies;
 }
 
 Teeth measure_teeth(const ThicknessProfile& profile) {

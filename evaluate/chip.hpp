@@ -24,6 +24,9 @@ struct CutOutline {
 /// position: [node] m, in the frame of the tool. Empty when there is no loop.
 CutOutline cut_outline(const IndexedVector<CloudFacetIndex, Facet<2>>& facets,
                        std::span<const Vec2> position);
+/// Of each body its outer loop, clockwise as well, from any node on.
+std::vector<CutOutline> outlines_of_bodies(const IndexedVector<CloudFacetIndex, Facet<2>>& facets,
+                                           std::span<const Vec2> position);
 
 /// Thickness of the chip at places along its rake side.
 struct ThicknessProfile {

@@ -348,7 +348,7 @@ CuttingResult evaluate_cutting(const input::Case& input, const results::Snapshot
   };
   take_surface(result,
                measure_surface(
-                   outline, place,
+                   machined_profile(shot.cloud.facets, place, asked.feed), place,
                    {volume, spans(loaded), spans(residual), strain, state.node.temperature, left.yield_ratio},
                    asked.feed, moved.dot(cut.along), asked.clear),
                input.analysis.thermal);

@@ -14,28 +14,29 @@ constexpr double longest_surface = 5.0;  ///< feeds
 constexpr double shortest_surface = 0.5; ///< feeds
 constexpr double deepest_layer = 3.0;    ///< feeds
 
-/// Nodes of the outline from the tip back to where the cut began.
-std::vector<std::size_t> surface_of(const CutOutline& outline, double feed) {
-  std::vector<std::size_t> places;
+constexpr double deep = 0.05;        ///< feeds: bodies that reach deeper are of the workpiece
+constexpr double near_surface = 0.5; ///< feeds, above and below the tip
+
+/// From the tip back to where the cut began.
+std::vector<Vec2> surface_of(const CutOutline& outline, double feed) {
+  std::vector<Vec2> profile;
   double furthest = 0.0;
   for (std::size_t k = outline.point.size(); k-- > 1;) {
     const Vec2& x = outline.point[k];
-    if (x.y() < -0.5 * feed || x.x() > furthest + 0.25 * feed) break; // round the corner
+    if (x.y() < -near_surface * feed || x.x() > furthest + 0.25 * feed) break; // round the corner
     furthest = std::min(furthest, x.x());
-    places.push_back(k);
+    profile.push_back(x);
   }
-  return places;
+  return profile;
 }
 
 /// Mean over five equal lengths of a stretch; not-a-number where one of them has fewer than two nodes.
-double highest_over_lowest(const CutOutline& outline, const std::vector<std::size_t>& places,
-                           const Stretch& stretch) {
+double highest_over_lowest(std::span<const Vec2> profile, const Stretch& stretch) {
   constexpr std::size_t lengths = 5;
   std::array<Stretch, lengths> height;
   height.fill({INFINITY, -INFINITY});
   std::array<int, lengths> nodes{};
-  for (const std::size_t k : places) {
-    const Vec2& x = outline.point[k];
+  for (const Vec2& x : profile) {
     if (x.x() < stretch.from || x.x() > stretch.to) continue;
     const auto at =
         std::min(lengths - 1, static_cast<std::size_t>(lengths * (x.x() - stretch.from) / stretch.length()));
@@ -91,12 +92,42 @@ struct LayerSums {
 
 } // namespace
 
-MachinedSurface measure_surface(const CutOutline& outline, std::span<const Vec2> position,
+std::vector<Vec2> machined_profile(const IndexedVector<CloudFacetIndex, Facet<2>>& facets,
+                                   std::span<const Vec2> position, double feed) {
+  const std::vector<CutOutline> bodies = outlines_of_bodies(facets, position);
+  if (bodies.size() == 1) return surface_of(cut_outline(facets, position), feed);
+  // Walls between bodies are seen where they lean: places stand at equal distances, nodes would crowd there.
+  std::vector<std::array<Vec2, 2>> above;
+  double left = 0.0;
+  for (const CutOutline& body : bodies) {
+    const bool stays = std::any_of(body.point.begin(), body.point.end(),
+                                   [&](const Vec2& x) { return x.y() < -deep * feed; });
+    if (!stays) continue;
+    for (std::size_t k = 0; k < body.point.size(); ++k) {
+      const Vec2 &a = body.point[k], &b = body.point[(k + 1) % body.point.size()];
+      if (std::max(std::abs(a.y()), std::abs(b.y())) > near_surface * feed || a.x() == b.x()) continue;
+      above.push_back(a.x() < b.x() ? std::array{a, b} : std::array{b, a});
+      left = std::min(left, above.back()[0].x());
+    }
+  }
+  const double apart = feed / 50.0;
+  std::vector<Vec2> profile;
+  for (int k = 0; - apart * k >= left; ++k) {
+    const double x = -apart * k;
+    double highest = -INFINITY;
+    for (const auto& [a, b] : above)
+      if (a.x() <= x && x <= b.x())
+        highest = std::max(highest, a.y() + (x - a.x()) / (b.x() - a.x()) * (b.y() - a.y()));
+    if (std::isfinite(highest)) profile.emplace_back(x, highest); // else a gap
+  }
+  return profile;
+}
+
+MachinedSurface measure_surface(std::span<const Vec2> profile, std::span<const Vec2> position,
                                 const DepthFields& fields, double feed, double travelled, double clear) {
   MachinedSurface surface;
-  const std::vector<std::size_t> places = surface_of(outline, feed);
   double begin = 0.0;
-  for (const std::size_t k : places) begin = std::min(begin, outline.point[k].x());
+  for (const Vec2& x : profile) begin = std::min(begin, x.x());
   begin = std::max(begin, -travelled);
   surface.measured.to = -clear;
   surface.measured.from = std::max(begin + clear, surface.measured.to - longest_surface * feed);
@@ -111,8 +142,8 @@ MachinedSurface measure_surface(const CutOutline& outline, std::span<const Vec2>
     return x.x() >= surface.measured.from && x.x() <= surface.measured.to;
   };
   double length = 0.0, sum = 0.0;
-  for (std::size_t k = 0; k + 1 < places.size(); ++k) {
-    const Vec2 &a = outline.point[places[k]], &b = outline.point[places[k + 1]], middle = 0.5 * (a + b);
+  for (std::size_t k = 0; k + 1 < profile.size(); ++k) {
+    const Vec2 &a = profile[k], &b = profile[k + 1], middle = 0.5 * (a + b);
     if (!lies(middle)) continue;
     length += (b - a).norm();
     sum += (b - a).norm() * middle.y();
@@ -123,13 +154,13 @@ MachinedSurface measure_surface(const CutOutline& outline, std::span<const Vec2>
   }
   surface.height = sum / length;
   double rough = 0.0, count = 0.0;
-  for (const std::size_t k : places)
-    if (lies(outline.point[k])) {
-      rough += std::abs(outline.point[k].y() - surface.height);
+  for (const Vec2& x : profile)
+    if (lies(x)) {
+      rough += std::abs(x.y() - surface.height);
       ++count;
     }
   surface.roughness = count > 0.0 ? rough / count : unknown;
-  surface.Rz = highest_over_lowest(outline, places, surface.measured);
+  surface.Rz = highest_over_lowest(profile, surface.measured);
 
   const auto depth = [&](std::size_t i) { return surface.height - position[i].y(); };
   const auto below = [&](std::size_t i, double most) {

@@ -263,8 +263,9 @@ bool thin(WorkingCloud& work, Structure& structure, const Thresholds& thresholds
       ++done.promoted;
     } else if (work.on_boundary(i)) {
       const auto shifts = thinning.removal(i);
-      if (!shifts || std::any_of(shifts->begin(), shifts->end(),
-                                 [&](const auto& shift) { return touched[shift.node] != 0; }))
+      if (!shifts || changed.stays(i) || std::any_of(shifts->begin(), shifts->end(), [&](const auto& shift) {
+            return touched[shift.node] != 0;
+          }))
         continue;
       for (const auto& shift : *shifts) {
         changed.place(shift.node, shift.to);

@@ -122,8 +122,9 @@ bool WorkingCloud::ends_piece(NodeIndex i) const {
   const NodeIndex before = previous_[i];
   const PieceIndex entering = piece_[before], leaving = piece_[i];
   if (entering == leaving) return false;
-  if (leaving == free_piece_) return piece_[previous_[before]] != entering;
-  if (entering == free_piece_) return piece_[next_[i]] != leaving;
+  const auto last = [&](PieceIndex piece) { return std::count(piece_.begin(), piece_.end(), piece) == 1; };
+  if (leaving == free_piece_) return piece_[previous_[before]] != entering && last(entering);
+  if (entering == free_piece_) return piece_[next_[i]] != leaving && last(leaving);
   return true;
 }
 

@@ -31,8 +31,8 @@ public:
   NodeIndex mate(NodeIndex i) const;
   /// Whether the boundary turns back at a node so that the body lies round it: the tip of a crack.
   bool is_tip(NodeIndex i) const;
-  /// Facets change pieces here, and the node has to stay for it: it is an end of named boundaries, or all
-  /// that keeps a piece beside the free one.
+  /// Facets change pieces here, and the node has to stay for it: it is an end of named boundaries, or beside
+  /// the free piece the end of the last facet of another.
   bool ends_piece(NodeIndex i) const;
   /// A boundary node that may not go: it is held, ends a piece or mates, or its mate may not.
   bool stays(NodeIndex i) const;

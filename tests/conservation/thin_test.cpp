@@ -49,6 +49,30 @@ TEST(Thin, shallow_slits_are_closed) {
   }
 }
 
+// Cuts of films end where they find the other face: a facet of 3 nm was left of the face of a fibre.
+TEST(Thin, a_short_facet_between_free_ones_goes_unless_it_is_the_last_of_its_piece) {
+  constexpr PieceIndex named = 0_piece, free = 1_piece;
+  for (const bool last : {false, true}) {
+    Blank b = blank(0.1);
+    const auto [before, start, end] = cut_slit(b, 0.0);
+    b.cloud.position[before].x() = 0.4;
+    b.cloud.position[end].x() = 0.503;
+    for (Facet<2>& facet : b.cloud.facets) {
+      const Vec2 middle = 0.5 * (b.cloud.position[facet.node[0]] + b.cloud.position[facet.node[1]]);
+      const bool is_short = index_of(facet.node[0]) == start && index_of(facet.node[1]) == end;
+      facet.piece = is_short || (!last && middle.y() > 0.599) ? named : free;
+    }
+    PassReport report;
+    const Resampling<2> change =
+        resample(b.cloud, structure_if_valid(b.cloud), b.node, {.split = {.piece = free}}, report);
+    EXPECT_EQ(exists(change.new_of[start]) && exists(change.new_of[end]), last);
+    EXPECT_EQ(shortest_facet(change.cloud) < 0.01, last);
+    EXPECT_TRUE(std::any_of(change.cloud.facets.begin(), change.cloud.facets.end(),
+                            [&](const Facet<2>& facet) { return facet.piece == named; }));
+    EXPECT_NEAR(testing::area(change.cloud), 0.6, 1e-9);
+  }
+}
+
 TEST(Thin, slits_stay_where_they_are_deep_or_blunt_or_their_lips_must_stay) {
   for (const auto& [depth, mouth, held] :
        {std::tuple{0.08, 0.006, false}, {0.035, 0.06, false}, {0.035, 0.006, true}}) {

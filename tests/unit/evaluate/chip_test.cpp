@@ -162,7 +162,7 @@ TEST(Surface, has_its_height_roughness_and_layers) {
   for (int k = 1; k < 150; ++k) points.emplace_back(-0.02 * k, k % 2 ? -0.02 : 0.0);
   testing::add_loop(cloud, points, 10.0);
   std::vector<Vec2> position(cloud.position.begin(), cloud.position.end());
-  const CutOutline outline = cut_outline(cloud.facets, position);
+  const std::vector<Vec2> profile = machined_profile(cloud.facets, position, feed);
   std::vector<double> volume(position.size(), 1e-4);
   for (double x = -2.9; x < 0.0; x += 0.02)
     for (double depth = 0.03; depth < 1.2; depth += 0.02) {
@@ -177,7 +177,7 @@ TEST(Surface, has_its_height_roughness_and_layers) {
     if (x.y() < -1.2) ratio[left.size() - 1] = 2.0; // deeper than what is looked at
   }
   const MachinedSurface surface = measure_surface(
-      outline, position, {volume, {along, away, across}, {left, across, away}, strain, heat, ratio}, feed,
+      profile, position, {volume, {along, away, across}, {left, across, away}, strain, heat, ratio}, feed,
       3.0, feed);
   EXPECT_EQ(surface.note, "");
   EXPECT_NEAR(surface.height, -0.01, 1e-6);
@@ -204,7 +204,7 @@ TEST(Surface, behind_a_cut_that_has_hardly_begun_is_not_measured) {
   const std::vector<Vec2> position(cloud.position.begin(), cloud.position.end());
   const std::vector<double> none(position.size(), 1.0);
   const MachinedSurface surface =
-      measure_surface(cut_outline(cloud.facets, position), position,
+      measure_surface(machined_profile(cloud.facets, position, feed), position,
                       {none, {none, none, none}, {none, none, none}, none, none, none}, feed, 3.0, feed);
   EXPECT_NE(surface.note.find("too short"), std::string::npos);
   EXPECT_TRUE(std::isnan(surface.roughness));
@@ -219,7 +219,7 @@ TEST(Surface, a_scratch_counts_in_one_of_five_lengths) {
   const std::vector<Vec2> position(cloud.position.begin(), cloud.position.end());
   const std::vector<double> none(position.size(), 1.0);
   const MachinedSurface surface =
-      measure_surface(cut_outline(cloud.facets, position), position,
+      measure_surface(machined_profile(cloud.facets, position, feed), position,
                       {none, {none, none, none}, {none, none, none}, none, none, none}, feed, 3.0, feed);
   EXPECT_NEAR(surface.Rz, (4 * 0.02 + 0.07) / 5, 1e-12);
 }
@@ -232,11 +232,34 @@ TEST(Surface, of_a_short_cut_is_measured_nearer_to_the_tool) {
   const std::vector<Vec2> position(cloud.position.begin(), cloud.position.end());
   const std::vector<double> none(position.size(), 1.0);
   const DepthFields fields{none, {none, none, none}, {none, none, none}, none, none, none};
-  const CutOutline outline = cut_outline(cloud.facets, position);
-  EXPECT_TRUE(std::isnan(measure_surface(outline, position, fields, feed, 3.0, feed).roughness));
-  const MachinedSurface surface = measure_surface(outline, position, fields, feed, 3.0, 0.25 * feed);
+  const std::vector<Vec2> profile = machined_profile(cloud.facets, position, feed);
+  EXPECT_TRUE(std::isnan(measure_surface(profile, position, fields, feed, 3.0, feed).roughness));
+  const MachinedSurface surface = measure_surface(profile, position, fields, feed, 3.0, 0.25 * feed);
   EXPECT_NEAR(surface.roughness, 0.01, 1e-6);
   EXPECT_NEAR(surface.measured.to, -0.25 * feed, 1e-12);
+}
+
+TEST(Surface, of_several_bodies_is_what_is_seen_from_above) {
+  // Two blocks with a gap between them that a chip lies over, the left one with a step up, the other with a
+  // hole and a side that leans.
+  Cloud<2> cloud;
+  testing::add_loop(cloud, {{-3, -2}, {-1.5, -2}, {-1.5, 0}, {-2.5, 0}, {-2.5, 0.02}, {-3, 0.02}}, 0.1);
+  testing::add_loop(cloud, {{-1.2, -2}, {6, -2}, {6, feed}, {0.3, feed}, {0, 0}, {-1.2, 0}, {-1.3, -0.1}},
+                    0.1);
+  testing::add_loop(cloud, {{-1.0, -0.1}, {-0.8, -0.02}, {-0.6, -0.1}}, 0.1);
+  testing::add_loop(cloud, {{-2.0, 0.01}, {-1.0, 0.01}, {-1.0, 0.05}, {-2.0, 0.05}}, 0.1);
+  std::vector<Vec2> position(cloud.position.begin(), cloud.position.end());
+  const std::vector<Vec2> profile = machined_profile(cloud.facets, position, feed);
+  ASSERT_EQ(profile.size(), 468U) << "501 places, 33 of them in the gap";
+  for (const Vec2& x : profile) {
+    const double height = x.x() < -2.5 - 1e-9                   ? 0.02
+                          : x.x() < -1.5 - 1e-9 || x.x() > -1.2 ? 0.0
+                                                                : x.x() + 1.2;
+    if (std::abs(x.x() + 2.5) > 1e-9 && std::abs(x.x() + 1.5) > 1e-9) { EXPECT_NEAR(x.y(), height, 1e-12); }
+  }
+  for (Facet<2>& facet : cloud.facets)
+    std::swap(facet.node[0], facet.node[1]); // of a tool that cuts towards -x
+  EXPECT_EQ(machined_profile(cloud.facets, position, feed).size(), profile.size());
 }
 
 TEST(Surface, that_an_earlier_cut_has_left_is_not_measured) {
@@ -247,11 +270,11 @@ TEST(Surface, that_an_earlier_cut_has_left_is_not_measured) {
   const std::vector<Vec2> position(cloud.position.begin(), cloud.position.end());
   const std::vector<double> none(position.size(), 1.0);
   const DepthFields fields{none, {none, none, none}, {none, none, none}, none, none, none};
-  const CutOutline outline = cut_outline(cloud.facets, position);
-  const MachinedSurface surface = measure_surface(outline, position, fields, feed, 1.0, 0.2 * feed);
+  const std::vector<Vec2> profile = machined_profile(cloud.facets, position, feed);
+  const MachinedSurface surface = measure_surface(profile, position, fields, feed, 1.0, 0.2 * feed);
   EXPECT_NEAR(surface.measured.from, -1.0 + 0.2 * feed, 1e-12);
   EXPECT_NEAR(surface.roughness, 0.01, 1e-6);
-  EXPECT_LT(measure_surface(outline, position, fields, feed, 3.0, 0.2 * feed).roughness, 0.0095);
+  EXPECT_LT(measure_surface(profile, position, fields, feed, 3.0, 0.2 * feed).roughness, 0.0095);
 }
 
 } // namespace
