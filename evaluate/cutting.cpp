@@ -333,9 +333,11 @@ CuttingResult evaluate_cutting(const input::Case& input, const results::Snapshot
     result.shear_stress =
         (result.Fc * std::cos(angle) - result.Ft * std::sin(angle)) * std::sin(angle) / asked.feed;
   }
+  const bool has_ply = std::any_of(input.materials.begin(), input.materials.end(),
+                                   [](const auto& material) { return material.ply.has_value(); });
   const ResidualStress left =
-      plies ? no_residual_stress(place.size(), "the elastic way back is that of isotropic metal")
-            : residual_stress(shot, body);
+      has_ply ? no_residual_stress(place.size(), "the elastic way back is that of isotropic metal")
+              : residual_stress(shot, body);
   result.residual_note = left.note;
   if (input.analysis.thermal && std::none_of(input.materials.begin(), input.materials.end(),
                                              [](const auto& material) { return material.expansion != 0.0; }))

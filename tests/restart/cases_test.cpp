@@ -75,7 +75,7 @@ std::vector<std::string> run_with_few_pictures(const fs::path& input, const fs::
       words.insert(words.end(),
                    {"--set", "milling.feed=1.5 mm", "--set", "dexels.steps=180", "--set", "dexels.layers=3"});
     else
-      words.insert(words.end(), {"--set", "milling.feed=0.5 mm", "--set", "dexels.steps=60"});
+      words.insert(words.end(), {"--set", "milling.feed=1 mm", "--set", "dexels.steps=60"});
   } else
     words.insert(words.end(), {"--set", "output.picture_fields=[\"pressure\"]"});
   return words;
