@@ -129,9 +129,7 @@ private:
   /// The less there is to lose with a node, the sooner it goes: new nodes, those inside of faces, on creases.
   int rank(NodeIndex i) const {
     if (surface_.held(i) || surface_.corner(i)) return 3;
-    bool on_crease = false;
-    surface_.around(i, [&](Edge e) { on_crease |= surface_.crease(e); });
-    return on_crease ? 2 : index_of(i) < old_nodes_ ? 1 : 0;
+    return surface_.on_crease(i) ? 2 : index_of(i) < old_nodes_ ? 1 : 0;
   }
 
   void collapse_short() {

@@ -99,6 +99,18 @@ bool WorkingSurface::corner(NodeIndex i) const {
   return cosine_between(at(i) - at(other[0]), at(other[1]) - at(i)) < least_corner_;
 }
 
+bool WorkingSurface::on_crease(NodeIndex i) const {
+  bool any = false;
+  around(i, [&](Edge e) { any |= crease(e); });
+  return any;
+}
+
+bool WorkingSurface::of_folds(NodeIndex i) const {
+  bool all = true;
+  around(i, [&](Edge e) { all &= piece(e) == piece(leaving_[i]); });
+  return all;
+}
+
 /// Of a node on a crease each side is a part; what a part that is plane is normal to is no way. A corner has
 /// none but the line in which two planes meet.
 void WorkingSurface::keep_on_faces(NodeIndex i, Vec3& way) const {
@@ -200,18 +212,16 @@ bool WorkingSurface::may_become(const Corners& before, const Corners& after) con
 }
 
 /// What does not depend on where the nodes are, but for creases.
-Refusal WorkingSurface::may_collapse(Edge e) const {
+Refusal WorkingSurface::may_collapse(Edge e, double spacing) const {
   if (!alive(e)) return Refusal::absent;
   const NodeIndex gone = start(e), stays = end(e);
   if (held(gone)) return Refusal::held;
-  if (corner(gone)) return Refusal::corner;
-  bool on_crease = false;
+  constexpr double one = 0.1; // h: folds so near to each other are one
+  const bool folds_meet = length(e) < one * spacing && of_folds(gone) && on_crease(stays);
+  if (corner(gone) && !folds_meet) return Refusal::corner;
+  if (on_crease(gone) && !crease(e) && !folds_meet) return Refusal::crease;
   std::vector<NodeIndex> near;
-  around(gone, [&](Edge k) {
-    on_crease |= crease(k);
-    near.push_back(end(k));
-  });
-  if (on_crease && !crease(e)) return Refusal::crease;
+  around(gone, [&](Edge k) { near.push_back(end(k)); });
   int common = 0;
   around(stays, [&](Edge k) { common += std::find(near.begin(), near.end(), end(k)) != near.end() ? 1 : 0; });
   if (common != 2 || valence(apex(e)) < 4 || valence(apex(across(e))) < 4) return Refusal::link;
@@ -219,7 +229,7 @@ Refusal WorkingSurface::may_collapse(Edge e) const {
 }
 
 SurfaceChange WorkingSurface::try_collapse(Edge e, double spacing, Vec3& to) const {
-  if (const Refusal refusal = may_collapse(e); refusal != Refusal::none) return {refusal};
+  if (const Refusal refusal = may_collapse(e, spacing); refusal != Refusal::none) return {refusal};
   const Edge back = across(e);
   const NodeIndex gone = start(e), stays = end(e);
   const std::size_t f = index_of(e / 3), g = index_of(back / 3);

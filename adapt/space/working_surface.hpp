@@ -89,6 +89,7 @@ public:
   /// Where facets of two pieces meet, or that turn by more than rules.crease; pieces that are repeated have
   /// no creases inside.
   bool crease(Edge e) const;
+  bool on_crease(NodeIndex i) const;
   /// Creases end, branch or turn here.
   bool corner(NodeIndex i) const;
   /// Of which a node may move by its length without changing the volume by more than that: ∂V/∂x, m², less
@@ -99,7 +100,8 @@ public:
   SurfaceChange split(Edge e, const Vec3& x);
   SurfaceChange split(Edge e); ///< in the middle
   /// The node that an edge leaves goes into its end, which moves to where the volume is what it was
-  /// (Lindstrom and Turk 1998), unless it cannot. spacing: h, m.
+  /// (Lindstrom and Turk 1998), unless it cannot. Corners stay and creases are not left, but for a crease
+  /// within a tenth of h where all is of one piece, as two folds that have met. spacing: h, m.
   SurfaceChange collapse(Edge e, double spacing);
   /// What collapse() would do, and where the node that stays would be.
   SurfaceChange try_collapse(Edge e, double spacing, Vec3& to) const;
@@ -125,7 +127,8 @@ private:
   void join(Edge a, Edge b);
   bool may_become(const Corners& before, const Corners& after) const;
   void keep_on_faces(NodeIndex i, Vec3& way) const;
-  Refusal may_collapse(Edge e) const;
+  bool of_folds(NodeIndex i) const; ///< one piece is all round it
+  Refusal may_collapse(Edge e, double spacing) const;
   Edge add_facet(const Facet<3>& facet);
 
   SurfaceRules rules_;

@@ -2,6 +2,7 @@
 // volume by what they say, and leave plane faces and straight creases where they are.
 #include "adapt/space/working_surface.hpp"
 #include "core/geometry/facets.hpp"
+#include "core/index.hpp"
 #include "tests/space_clouds.hpp"
 #include "voronoi/space/crossings.hpp"
 
@@ -107,6 +108,49 @@ TEST(WorkingSurface, leaves_faces_creases_and_corners_of_a_cube_to_the_bit) {
       EXPECT_EQ(changed.position[i][plane[0] - 'x'], plane[1] == '+' ? 1.0 : 0.0);
   }
   EXPECT_NEAR(enclosed_measure(changed), 1.0, 1e-14);
+}
+
+/// A slab with a narrow chamfer at one of its vertical edges, all of one piece but, if asked, its upper side.
+/// At the upper side the chamfer is the edge from node 7 to node 8.
+Cloud<3> chamfered_slab(double chamfer, bool lid) {
+  Cloud<3> cloud;
+  const std::array<Vec2, 5> outline{Vec2(0, 0), {1, 0}, {1, 1 - chamfer}, {1 - chamfer, 1}, {0, 1}};
+  for (const double z : {0.0, 0.1})
+    for (const Vec2& x : outline) cloud.position.emplace_back(x.x(), x.y(), z);
+  const auto add = [&](std::size_t a, std::size_t b, std::size_t c, PieceIndex piece) {
+    const auto node = [](std::size_t k) { return as<NodeIndex>(k); };
+    cloud.facets.push_back({{node(a), node(b), node(c)}, piece});
+  };
+  cloud.piece_names = {"side", "lid"};
+  for (std::size_t k = 1; k < 4; ++k) {
+    add(0, k + 1, k, as<PieceIndex>(0));
+    add(5, 5 + k, 6 + k, as<PieceIndex>(lid ? 1 : 0));
+  }
+  for (std::size_t k = 0; k < 5; ++k) {
+    const std::size_t next = (k + 1) % 5;
+    add(k, next, 5 + next, as<PieceIndex>(0));
+    add(k, 5 + next, 5 + k, as<PieceIndex>(0));
+  }
+  return cloud;
+}
+
+// Where folds met at two corners, a fortieth of the spacing apart, both stayed and the step fell to a tenth.
+TEST(WorkingSurface, joins_corners_of_folds_that_have_come_together) {
+  const auto refusal = [](double chamfer, bool lid) {
+    WorkingSurface surface = surface_of(chamfered_slab(chamfer, lid));
+    const auto a = as<NodeIndex>(7), b = as<NodeIndex>(8);
+    EXPECT_TRUE(surface.corner(a) && surface.corner(b));
+    const double before = enclosed_measure(cloud_of(surface, chamfered_slab(chamfer, lid)));
+    const SurfaceChange change = surface.collapse(surface.between(a, b), 0.1);
+    const Cloud<3> changed = cloud_of(surface, chamfered_slab(chamfer, lid));
+    voronoi::surface_edges(changed);
+    EXPECT_NEAR(enclosed_measure(changed) - before, change.volume, 1e-15);
+    EXPECT_EQ(surface.on_surface(a), !change.done());
+    return change.refusal;
+  };
+  EXPECT_EQ(refusal(0.0005, false), Refusal::none);
+  EXPECT_EQ(refusal(0.008, false), Refusal::corner) << "0.11 spacings apart";
+  EXPECT_EQ(refusal(0.0005, true), Refusal::corner) << "a piece ends there";
 }
 
 TEST(WorkingSurface, leaves_held_nodes_and_closed_slits_alone) {
