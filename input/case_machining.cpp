@@ -40,7 +40,7 @@ void read_cutting_law(const Setting& root, MachiningCase& read, Diagnostics& dia
   read.rake = root.maybe<double>("cutter.rake");
   if (edge) read.rake = edge->angles(0.0, read.axial_depth).rake;
   if (const Setting* rakes = forces.find("rakes");
-      rakes && read.cut.law.known().several_rakes() && !read.rake)
+      rakes && read.cut.law.known().several_rakes() && !read.rake && !root.find("cutter.rake_face"))
     diagnostics.add(
         Mistake::missing_key, root.find("cutter")->where, "cutter.rake",
         fmt::format("missing, expected an angle such as \"10 deg\": the law is over several rakes "
@@ -109,6 +109,9 @@ NamedMode read_mode(const Setting& table, Diagnostics& diagnostics) {
 void check_modes(const Setting& modes, const MachiningCase& read, Diagnostics& diagnostics) {
   constexpr double along_axis = 1e-9;
   if (read.modes.empty()) return;
+  if (std::any_of(read.modes.begin(), read.modes.end(),
+                  [](const NamedMode& mode) { return !(mode.direction.norm() > 0.0); }))
+    return; // it has been told
   if (std::all_of(read.modes.begin(), read.modes.end(),
                   [](const NamedMode& mode) { return mode.direction.head<2>().norm() < along_axis; }))
     diagnostics.add(Mistake::range, modes.where, "modes",
@@ -263,7 +266,8 @@ void read_machining(Setting& root, Case& result, Diagnostics& diagnostics) {
           fmt::format("takes up to {:.3g} steps at its least, expected at most {:g}", steps, most_steps));
   }
   constexpr double most_lines = 2e5;
-  if (const Setting& pitch = *root.find("dexels.pitch");
+  if (const Setting& pitch = *root.find("dexels.pitch"); // of a feed of nothing it has been told
+      (pitch.given || milling.get<TimeTable>("feed").values().front() > 0.0) &&
       (read.length + 3.0 * diameter) / read.dexels.pitch > most_lines)
     diagnostics.add(Mistake::range, pitch.where, pitch.path,
                     fmt::format("found {:g} m, expected at least {:.3g} m: {:g} lines along the path",
