@@ -183,6 +183,8 @@ PartCase read_part(const Setting& table, Analysis::Type type, Diagnostics& diagn
   part.shape.materials = {read_solid(table)};
   part.element = table.choice<machining::PartElement>("element");
   read_zones(table, part.shape, diagnostics);
+  if (!table.find("cells") && part.element == machining::PartElement::hexahedron_27)
+    part.shape.more = machining::beside_steps(part.shape);
   read_supports(table, part, diagnostics);
   read_damping(table, part, diagnostics);
   read_directions(table, part, diagnostics);
@@ -224,8 +226,6 @@ machining::Bearing read_bearing(const Setting& table) {
   return bearing;
 }
 
-ShaftCase read_shaft(Setting& table, Diagnostics& diagnostics) {
-  ShaftCase shaft;
 /// Sections follow each other; bearings and points stand along them.
 void check_places(const Setting& table, const ShaftCase& shaft, Diagnostics& diagnostics) {
   const std::vector<Setting>& tables = table.entries("sections");
@@ -253,6 +253,8 @@ void check_places(const Setting& table, const ShaftCase& shaft, Diagnostics& dia
                                     entry.get<double>("at"), begin, end));
 }
 
+ShaftCase read_shaft(Setting& table, Diagnostics& diagnostics) {
+  ShaftCase shaft;
   const machining::ElasticSolid solid = read_solid(table);
   for (const Setting& section : table.entries("sections")) {
     shaft.sections.push_back({.from = section.get<double>("from"),
