@@ -127,8 +127,9 @@ void check_time_domain(const Setting& root, const MachiningCase& read, Analysis:
         Mistake::conflict, face->where, face->path,
         "found a rake face, expected cutter.helix and an end that is flat: lobes are those of edges "
         "at one radius; analysis.type = \"milling\" takes any");
-  if (const Setting& end = *root.find("cutter.end"); cutter.corner > 0.0 && type == Analysis::Type::stability)
-    diagnostics.add(Mistake::conflict, end.where, end.path,
+  if (const Setting* end = root.find("cutter.end");
+      end && cutter.corner > 0.0 && type == Analysis::Type::stability)
+    diagnostics.add(Mistake::conflict, end->where, end->path,
                     "found a rounded end, expected a flat one: lobes are those of edges at one radius, whose "
                     "chips do not change with a motion along z; analysis.type = \"milling\" takes any");
   const Setting* places = root.find("stability.places");
