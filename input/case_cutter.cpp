@@ -93,6 +93,7 @@ machining::Cutter read_cutter(Setting& table, const std::string& case_path, doub
   read_end(cutter, table, diagnostics);
   if (table.find("rake_face")) {
     cutter.edge = read_edge(table, case_path, axial_depth, diagnostics);
+    for (const char* name : {"helix", "end"}) table.erase(name); // defaults, which resolved cases would give
     if (cutter.edge) cutter.diameter = 2.0 * cutter.edge->radius();
   }
   const Setting* pitch = table.find("pitch");

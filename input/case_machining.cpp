@@ -40,7 +40,7 @@ void read_cutting_law(const Setting& root, MachiningCase& read, Diagnostics& dia
   read.rake = root.maybe<double>("cutter.rake");
   if (edge) read.rake = edge->angles(0.0, read.axial_depth).rake;
   if (const Setting* rakes = forces.find("rakes");
-      rakes && read.cut.law.known().several_rakes() && !read.rake)
+      rakes && read.cut.law.known().several_rakes() && !read.rake && !root.find("cutter.rake_face"))
     diagnostics.add(
         Mistake::missing_key, root.find("cutter")->where, "cutter.rake",
         fmt::format("missing, expected an angle such as \"10 deg\": the law is over several rakes "
@@ -109,6 +109,9 @@ NamedMode read_mode(const Setting& table, Diagnostics& diagnostics) {
 void check_modes(const Setting& modes, const MachiningCase& read, Diagnostics& diagnostics) {
   constexpr double along_axis = 1e-9;
   if (read.modes.empty()) return;
+  if (std::any_of(read.modes.begin(), read.modes.end(),
+                  [](const NamedMode& mode) { return !(mode.direction.norm() > 0.0); }))
+    return; // it has been told
   if (std::all_of(read.modes.begin(), read.modes.end(),
                   [](const NamedMode& mode) { return mode.direction.head<2>().norm() < along_axis; }))
     diagnostics.add(Mistake::range, modes.where, "modes",
@@ -124,8 +127,9 @@ void check_time_domain(const Setting& root, const MachiningCase& read, Analysis:
         Mistake::conflict, face->where, face->path,
         "found a rake face, expected cutter.helix and an end that is flat: lobes are those of edges "
         "at one radius; analysis.type = \"milling\" takes any");
-  if (const Setting& end = *root.find("cutter.end"); cutter.corner > 0.0 && type == Analysis::Type::stability)
-    diagnostics.add(Mistake::conflict, end.where, end.path,
+  if (const Setting* end = root.find("cutter.end");
+      end && cutter.corner > 0.0 && type == Analysis::Type::stability)
+    diagnostics.add(Mistake::conflict, end->where, end->path,
                     "found a rounded end, expected a flat one: lobes are those of edges at one radius, whose "
                     "chips do not change with a motion along z; analysis.type = \"milling\" takes any");
   const Setting* places = root.find("stability.places");
@@ -236,7 +240,12 @@ void read_machining(Setting& root, Case& result, Diagnostics& diagnostics) {
         Mistake::missing_key, root.where, "modes",
         "missing, expected a mode of tool or part, [modes.NAME], or a [part]: nothing else can chatter");
   const double turn = read.cut.feed * static_cast<double>(read.cut.cutter.teeth());
-  constexpr double turns = 12.0, share = 0.1, lag = std::numbers::pi / 180.0, corner = 0.05;
+  constexpr double turns = 12.0, share = 0.1, degree = std::numbers::pi / 180.0, corner = 0.05;
+  // Layers that lag by more than a step leave gaps of angles that none of them is at, and forces come and go
+  // by a layer where edges enter.
+  const double lag =
+      std::clamp(machining::full_turn / static_cast<double>(root.get<std::int64_t>("dexels.steps")),
+                 0.5 * degree, degree);
   if (!milling.find("passes")) root.set_default("milling.length", turns * turn);
   root.set_default("dexels.pitch", share * read.cut.feed);
   const double rounded = // m, over which the radius of edges changes
@@ -263,7 +272,8 @@ void read_machining(Setting& root, Case& result, Diagnostics& diagnostics) {
           fmt::format("takes up to {:.3g} steps at its least, expected at most {:g}", steps, most_steps));
   }
   constexpr double most_lines = 2e5;
-  if (const Setting& pitch = *root.find("dexels.pitch");
+  if (const Setting& pitch = *root.find("dexels.pitch"); // of a feed of nothing it has been told
+      (pitch.given || milling.get<TimeTable>("feed").values().front() > 0.0) &&
       (read.length + 3.0 * diameter) / read.dexels.pitch > most_lines)
     diagnostics.add(Mistake::range, pitch.where, pitch.path,
                     fmt::format("found {:g} m, expected at least {:.3g} m: {:g} lines along the path",

@@ -173,6 +173,12 @@ void read_elasticity(const Setting& table, const Setting& of, plasticity::Materi
                     "fibres");
 }
 
+/// Pa, the largest S with which fibres of LaRC02 kink at some angle under Xc alone: 4 k S/Xc = 1.
+double largest_shear_strength(const plasticity::Failure& law) {
+  const double c = std::cos(law.alpha0), friction = -std::cos(2.0 * law.alpha0) / (law.Yc * c * c); // ηL/S
+  return 0.5 * law.Xc / std::sqrt(1.0 + friction * law.Xc);
+}
+
 std::optional<plasticity::Failure> read_failure(const Setting& table, const plasticity::Material& material,
                                                 Diagnostics& diagnostics) {
   using plasticity::Failure;
@@ -184,6 +190,11 @@ std::optional<plasticity::Failure> read_failure(const Setting& table, const plas
   const bool larc02 = law.criterion == plasticity::FailureCriterion::larc02;
   require_key(table, larc02 ? "eps1t" : "Xt", fmt::format("law = \"{}\"", table.get<std::string>("law")),
               diagnostics);
+  if (const Setting& shear = *table.find("S"); larc02 && law.S > largest_shear_strength(law))
+    diagnostics.add(Mistake::range, shear.where, shear.path,
+                    fmt::format("found {:g} Pa beside Xc = {:g} Pa and Yc = {:g} Pa, expected at most {:.4g} "
+                                "Pa: no angle of kinks would bear Xc",
+                                law.S, law.Xc, law.Yc, largest_shear_strength(law)));
   if (law.degradation == plasticity::Degradation::energy)
     for (const char* energy : {"Gft", "Gfc", "Gmt", "Gmc"})
       require_key(table, energy, "degradation = \"energy\"", diagnostics);

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <numeric>
 #include <set>
 #include <string_view>
 
@@ -182,6 +183,8 @@ PartCase read_part(const Setting& table, Analysis::Type type, Diagnostics& diagn
   part.shape.materials = {read_solid(table)};
   part.element = table.choice<machining::PartElement>("element");
   read_zones(table, part.shape, diagnostics);
+  if (!table.find("cells") && part.element == machining::PartElement::hexahedron_27)
+    part.shape.more = machining::beside_steps(part.shape);
   read_supports(table, part, diagnostics);
   read_damping(table, part, diagnostics);
   read_directions(table, part, diagnostics);
@@ -223,6 +226,33 @@ machining::Bearing read_bearing(const Setting& table) {
   return bearing;
 }
 
+/// Sections follow each other; bearings and points stand along them.
+void check_places(const Setting& table, const ShaftCase& shaft, Diagnostics& diagnostics) {
+  const std::vector<Setting>& tables = table.entries("sections");
+  std::vector<std::size_t> order(tables.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return shaft.sections[a].from < shaft.sections[b].from; });
+  if (order.empty()) return;
+  const double begin = shaft.sections[order.front()].from, end = shaft.sections[order.back()].to,
+               same = 1e-9 * (end - begin);
+  for (std::size_t k = 1; k < order.size(); ++k) {
+    const double before = shaft.sections[order[k - 1]].to;
+    if (const Setting& from = *tables[order[k]].find("from");
+        std::abs(shaft.sections[order[k]].from - before) > same)
+      diagnostics.add(Mistake::range, from.where, from.path,
+                      fmt::format("found {:g} m, expected {:g} m, where {} ends",
+                                  shaft.sections[order[k]].from, before, tables[order[k - 1]].path));
+  }
+  for (const char* list : {"bearings", "points"})
+    for (const Setting& entry : table.entries(list))
+      if (const Setting& at = *entry.find("at");
+          entry.get<double>("at") < begin - same || entry.get<double>("at") > end + same)
+        diagnostics.add(Mistake::range, at.where, at.path,
+                        fmt::format("found {:g} m, expected from {:g} to {:g} m, along the shaft",
+                                    entry.get<double>("at"), begin, end));
+}
+
 ShaftCase read_shaft(Setting& table, Diagnostics& diagnostics) {
   ShaftCase shaft;
   const machining::ElasticSolid solid = read_solid(table);
@@ -234,12 +264,12 @@ ShaftCase read_shaft(Setting& table, Diagnostics& diagnostics) {
                               .solid = read_solid(section, solid),
                               .shear_correction = section.maybe<double>("shear_correction")});
     const machining::ShaftSection& read = shaft.sections.back();
-    if (read.to <= read.from)
-      diagnostics.add(Mistake::range, section.where, section.path + ".to",
+    if (const Setting& to = *section.find("to"); read.to <= read.from)
+      diagnostics.add(Mistake::range, to.where, to.path,
                       fmt::format("found {:g} m, expected more than from = {:g} m", read.to, read.from));
-    if (read.bore >= read.diameter)
+    if (const Setting& bore = *section.find("bore"); read.bore >= read.diameter)
       diagnostics.add(
-          Mistake::range, section.where, section.path + ".bore",
+          Mistake::range, bore.where, bore.path,
           fmt::format("found {:g} m, expected less than the diameter, {:g} m", read.bore, read.diameter));
   }
   double begin = std::numeric_limits<double>::infinity(), end = -begin;
@@ -268,13 +298,9 @@ ShaftCase read_shaft(Setting& table, Diagnostics& diagnostics) {
         "whose slope is held too");
   shaft.speed = table.get<double>("speed");
   shaft.count = static_cast<int>(table.get<std::int64_t>("count"));
-  for (const Setting& point : table.entries("points")) {
+  for (const Setting& point : table.entries("points"))
     shaft.places.push_back({point.name, point.get<double>("at"), point.get<double>("force")});
-    if (const double at = shaft.places.back().at; at < begin || at > end)
-      diagnostics.add(
-          Mistake::range, point.where, point.path + ".at",
-          fmt::format("found {:g} m, expected from {:g} to {:g} m, along the shaft", at, begin, end));
-  }
+  check_places(table, shaft, diagnostics);
   return shaft;
 }
 

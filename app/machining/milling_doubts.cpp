@@ -135,7 +135,7 @@ std::vector<std::string> milling_doubts(const input::Case& input,
   if (!input.machining) return doubts;
   const input::MachiningCase& milling = *input.machining;
   const auto [thinnest, thickest] = machining::steady_chips(milling.cut);
-  if (thinnest <= 0.0)
+  if (input.analysis.type == input::Analysis::Type::stability && thinnest <= 0.0)
     doubts.push_back(
         input
             .error("cutter.run_out",

@@ -34,13 +34,19 @@ bool is_line(std::string_view text) {
          });
 }
 
+/// A value of a dimension as the key would have it, as TOML text.
+std::string example_of(const Key& key, const Dimension& dimension) {
+  const bool own = dimension == key.dimension && !key.example.empty() && key.example.front() == '"';
+  return own ? key.example : fmt::format("\"{}\"", describe(dimension).example);
+}
+
 /// Numbers of a text or a bare number, in SI and in range.
 std::vector<double> numbers(const Value& value, const Key& key, const Dimension& dimension) {
   std::vector<double> result;
   if (value.kind == Kind::text) {
     if (!is_line(value.text)) wrong_type(value, key);
     try {
-      result = parse_quantities(value.text, dimension);
+      result = parse_quantities(value.text, dimension, example_of(key, dimension));
     } catch (const UnitError& error) {
       throw ConversionError(Mistake::unit, value.where,
                             value.expression.empty()
@@ -48,11 +54,10 @@ std::vector<double> numbers(const Value& value, const Key& key, const Dimension&
                                 : fmt::format("{} (it comes from \"{}\")", error.what(), value.expression));
     }
   } else if (value.kind == Kind::integer || value.kind == Kind::real) {
-    const DimensionText wanted = describe(dimension);
     if (!dimension.dimensionless())
       throw ConversionError(Mistake::unit, value.where,
-                            fmt::format("found {} without a unit, expected {} such as \"{}\"", value.show(),
-                                        wanted.name, wanted.example));
+                            fmt::format("found {} without a unit, expected {} such as {}", value.show(),
+                                        describe(dimension).name, example_of(key, dimension)));
     result = {value.kind == Kind::integer ? static_cast<double>(value.integer) : value.real};
   } else {
     wrong_type(value, key);

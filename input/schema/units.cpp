@@ -314,13 +314,17 @@ void refuse_decimal_comma(std::string_view text) {
 Unit parse_unit(std::string_view text) { return UnitParser(text).parse(); }
 
 std::vector<double> parse_quantities(std::string_view text, const Dimension& expected) {
-  const DimensionText wanted = describe(expected);
+  return parse_quantities(text, expected, fmt::format("\"{}\"", describe(expected).example));
+}
+
+std::vector<double> parse_quantities(std::string_view text, const Dimension& expected,
+                                     std::string_view example) {
   std::vector<double> values;
   std::string_view rest = text;
   const auto skip_spaces = [&] {
     while (!rest.empty() && (rest.front() == ' ' || rest.front() == '\t')) rest.remove_prefix(1);
   };
-  const std::string expectation = fmt::format("expected {} such as \"{}\"", wanted.name, wanted.example);
+  const std::string expectation = fmt::format("expected {} such as {}", describe(expected).name, example);
   for (skip_spaces(); !rest.empty(); skip_spaces()) {
     const auto [value, length] = leading_number(rest);
     if (length > 0) refuse_comma(text, rest.substr(length));

@@ -85,6 +85,9 @@ void refuse_decimal_comma(std::string_view text);
 /// Parses one or more numbers that share one unit ("0 10 mm") and returns them in SI.
 /// Throws UnitError when the unit is missing, unknown or of another dimension, or a number is not finite.
 std::vector<double> parse_quantities(std::string_view text, const Dimension& expected);
+/// The same for a key that has an example of its own, as TOML text.
+std::vector<double> parse_quantities(std::string_view text, const Dimension& expected,
+                                     std::string_view example);
 
 /// One number with its unit. Throws UnitError as above, or when there are several numbers.
 double parse_quantity(std::string_view text, const Dimension& expected);

@@ -25,6 +25,7 @@ std::vector<double> lines(const PartShape& shape, Index axis) {
   for (const PartZone& zone : shape.zones)
     for (const double end : {zone.low[axis], zone.high[axis]})
       if (end > 0.0 && end < size) at.push_back(end);
+  for (const double end : shape.more[index_of(axis)]) at.push_back(end);
   std::sort(at.begin(), at.end());
   at.erase(std::unique(at.begin(), at.end(), [&](double a, double b) { return b - a < same * size; }),
            at.end());
@@ -36,6 +37,31 @@ bool within(const Vec3& point, const Vec3& low, const Vec3& high, double slack) 
 }
 
 } // namespace
+
+std::array<std::vector<double>, 3> beside_steps(const PartShape& shape) {
+  std::array<std::vector<double>, 3> steps, beside;
+  double smallest = infinite; // m
+  for (Index axis = 0; axis < 3; ++axis) {
+    std::vector<double>& at = steps[index_of(axis)];
+    for (const PartZone& zone : shape.zones)
+      for (const double end : {zone.low[axis], zone.high[axis]})
+        if (zone.taken > 0.0 && end > same * shape.size[axis] && end < (1.0 - same) * shape.size[axis])
+          at.push_back(end);
+    std::sort(at.begin(), at.end());
+    double before = 0.0;
+    for (const double end : at) {
+      if (end - before > same * shape.size[axis]) smallest = std::min(smallest, end - before);
+      before = end;
+    }
+    if (!at.empty()) smallest = std::min(smallest, shape.size[axis] - before);
+  }
+  constexpr double share = 0.25;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (const double end : steps[axis])
+      for (const double place : {end - share * smallest, end + share * smallest})
+        beside[axis].push_back(place);
+  return beside;
+}
 
 Part::Part(PartShape shape, PartElement element, std::span<const PartSupport> supports)
     : shape_(std::move(shape)), element_(element) {

@@ -25,7 +25,12 @@ struct PartShape {
   std::array<int, 3> divisions;        ///< cells along each axis; zones that end between them divide more
   std::vector<ElasticSolid> materials; ///< the first one is that of the box
   std::vector<PartZone> zones;
+  std::array<std::vector<double>, 3> more{}; ///< m, places along each axis where cells end, too
 };
+
+/// Places beside the ends of zones of which something is gone, within the box, by a quarter of the smallest
+/// length between such ends: what bends at a step is as high as that, whatever the cells elsewhere. m
+std::array<std::vector<double>, 3> beside_steps(const PartShape& shape);
 
 /// A face of the box that is held: all unknowns of its nodes; of plates, if it turns, all but the slope
 /// across it.

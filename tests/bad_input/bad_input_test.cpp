@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <optional>
 #include <regex>
 #include <sstream>
 #include <string>
@@ -52,6 +53,7 @@ struct Promise {
   std::string command = "check";
   std::vector<std::string> set, options, expected;
   int exit = 0;
+  std::optional<std::ptrdiff_t> lines; ///< how many there are of the message
 };
 
 Promise promise_of(const fs::path& file) {
@@ -68,6 +70,7 @@ Promise promise_of(const fs::path& file) {
       for (std::string word; words >> word;) promise.options.push_back(word);
     });
     after(line, "# expect exit ", [&](const std::string& text) { promise.exit = std::stoi(text); });
+    after(line, "# expect lines ", [&](const std::string& text) { promise.lines = std::stoi(text); });
     after(line, "# expect: ", [&](const std::string& text) { promise.expected.push_back(text); });
   }
   return promise;
@@ -90,6 +93,8 @@ TEST_P(BadInput, is_refused_as_promised) {
   const Refusal refusal = call(promise.command, file, promise.set, promise.options);
   EXPECT_EQ(refusal.exit, promise.exit) << refusal.message;
   for (const std::string& text : promise.expected) expect_message(refusal, text);
+  const std::ptrdiff_t told = std::count(refusal.message.begin(), refusal.message.end(), '\n');
+  EXPECT_EQ(told, promise.lines.value_or(told)) << refusal.message;
 
   // Whatever is wrong: each line says where, and what was expected; at most three of a kind.
   static const std::regex place(

@@ -37,6 +37,39 @@ TEST(MillingDoubts, FlanksAreComparedWithTheFastestModeAlongThePath) {
       doubts_of_lobes({"stability.speed_from=1300 rpm", "modes.wall.frequency_along=1 0.97 1.2 0.84 0.8"})));
 }
 
+const std::string end_mill = std::string(CNEM_SOURCE_DIR) + "/cases/milling/end_mill_forces/case.toml";
+
+// Dexels know what a tooth leaves that misses the cut; lobes do not.
+TEST(MillingDoubts, TeethThatMissTheCutAreTheBusinessOfLobes) {
+  const auto told = [](const char* type) {
+    const auto doubts =
+        check(input::read_case(end_mill, {std::string("analysis.type=") + type, "cutter.run_out=60 um",
+                                          "modes.y.frequency=900 Hz", "modes.y.damping=0.03",
+                                          "modes.y.stiffness=10 N/um", "modes.y.direction=0 1 0"}),
+              {})
+            .warnings;
+    return std::any_of(doubts.begin(), doubts.end(), [](const std::string& doubt) {
+      return doubt.find("a tooth misses the cut") != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(told("stability"));
+  EXPECT_FALSE(told("milling"));
+}
+
+// An edge of 6 mm with a helix of 30 deg on a radius of 6 mm lags by 33.08 deg.
+TEST(MillingDoubts, LayersLagByAStepAtMost) {
+  const auto layers = [](const char* steps) {
+    const std::string path = std::string(CNEM_SOURCE_DIR) + "/cases/milling/benchmark_lobes/case.toml";
+    return input::read_case(path, {"analysis.type=milling", "cutter.helix=30 deg", "milling.axial_depth=6 mm",
+                                   std::string("dexels.steps=") + steps})
+        .machining->dexels.layers;
+  };
+  EXPECT_EQ(layers("720"), 67);
+  EXPECT_EQ(layers("360"), 34);
+  EXPECT_EQ(layers("180"), 34);  // a degree at most
+  EXPECT_EQ(layers("2880"), 67); // half a degree will do
+}
+
 // An edge whose radius is a little off half of the diameter that is written cuts slots as wide as itself.
 TEST(MillingDoubts, ASlotOfARakeFaceIsThatOfItsEdge) {
   const std::string path = std::string(CNEM_SOURCE_DIR) + "/tests/bad_input/milling_rake_face_too_short.toml";
