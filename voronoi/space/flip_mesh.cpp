@@ -23,7 +23,8 @@ std::array<NodeIndex, 2> others(const FlipMesh::Nodes& node, NodeIndex d, NodeIn
   std::size_t at_d = 0, at_e = 0;
   while (node[at_d] != d) ++at_d;
   while (node[at_e] != e) ++at_e;
-  for (const auto& face = face_of_tetrahedron[at_d]; const std::size_t k : {0, 1, 2})
+  const auto& face = face_of_tetrahedron[at_d];
+  for (std::size_t k = 0; k < 3; ++k)
     if (face[k] == at_e) return {node[face[(k + 1) % 3]], node[face[(k + 2) % 3]]};
   return {NodeIndex::none, NodeIndex::none};
 }
