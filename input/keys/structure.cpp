@@ -62,9 +62,9 @@ void add_part(Keys& k) {
   k.add("part.cells", vector, "Along x, y and z, at least; the ends of zones divide more.")
       .of_space()
       .example("\"20 8 1\"")
-      .computed("20 along the longest side, as long along the others; of `hexahedron_27` thin ones too on "
-                "both sides "
-                "of steps");
+      .computed(
+          "20 along the longest side, as long along the others; of `hexahedron_27` thin ones too on both "
+          "sides of steps");
   k.add("part.clamped", choices, "Faces of the box that are held, `x0` where x is 0.")
       .one_of(faces)
       .example("[\"y0\"]");
