@@ -1,6 +1,5 @@
 #include "app/adaptation.hpp"
 
-#include "adapt/plane/debris.hpp"
 #include "adapt/plane/indicator.hpp"
 #include "app/adaptation_parts.hpp"
 #include "app/tool_tips.hpp"
@@ -104,7 +103,6 @@ void Adaptation::resume_log(const std::filesystem::path& folder) {
 adapt::NodeProperties Adaptation::properties(const ExplicitSolver<2>& solver, Field wanted) const {
   adapt::NodeProperties properties = node_properties(*input_, solver, std::move(wanted));
   properties.held.assign(corner_.begin(), corner_.end());
-  adapt::spread_debris(properties);
   return properties;
 }
 

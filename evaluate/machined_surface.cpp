@@ -17,6 +17,15 @@ constexpr double deepest_layer = 3.0;    ///< feeds
 constexpr double deep = 0.05;        ///< feeds: bodies that reach deeper are of the workpiece
 constexpr double near_surface = 0.5; ///< feeds, above and below the tip
 
+/// The same loop from its node nearest to the tip on.
+CutOutline from_the_tip(CutOutline outline) {
+  const auto nearer = [](const Vec2& a, const Vec2& b) { return a.squaredNorm() < b.squaredNorm(); };
+  const auto tip = std::min_element(outline.point.begin(), outline.point.end(), nearer);
+  std::rotate(outline.node.begin(), outline.node.begin() + (tip - outline.point.begin()), outline.node.end());
+  std::rotate(outline.point.begin(), tip, outline.point.end());
+  return outline;
+}
+
 /// From the tip back to where the cut began.
 std::vector<Vec2> surface_of(const CutOutline& outline, double feed) {
   std::vector<Vec2> profile;
@@ -31,18 +40,19 @@ std::vector<Vec2> surface_of(const CutOutline& outline, double feed) {
 }
 
 /// Mean over five equal lengths of a stretch; not-a-number where one of them has fewer than two nodes.
-double highest_over_lowest(std::span<const Vec2> profile, const Stretch& stretch) {
+double highest_over_lowest(const SurfaceProfile& profile, const Stretch& stretch) {
   constexpr std::size_t lengths = 5;
   std::array<Stretch, lengths> height;
   height.fill({INFINITY, -INFINITY});
   std::array<int, lengths> nodes{};
-  for (const Vec2& x : profile) {
-    if (x.x() < stretch.from || x.x() > stretch.to) continue;
-    const auto at =
-        std::min(lengths - 1, static_cast<std::size_t>(lengths * (x.x() - stretch.from) / stretch.length()));
-    height[at] = {std::min(height[at].from, x.y()), std::max(height[at].to, x.y())};
-    ++nodes[at];
-  }
+  for (const std::vector<Vec2>& of_body : profile)
+    for (const Vec2& x : of_body) {
+      if (x.x() < stretch.from || x.x() > stretch.to) continue;
+      const auto at = std::min(lengths - 1,
+                               static_cast<std::size_t>(lengths * (x.x() - stretch.from) / stretch.length()));
+      height[at] = {std::min(height[at].from, x.y()), std::max(height[at].to, x.y())};
+      ++nodes[at];
+    }
   if (*std::min_element(nodes.begin(), nodes.end()) < 2) return unknown;
   double sum = 0.0;
   for (const Stretch& own : height) sum += own.length();
@@ -92,42 +102,57 @@ struct LayerSums {
 
 } // namespace
 
-std::vector<Vec2> machined_profile(const IndexedVector<CloudFacetIndex, Facet<2>>& facets,
-                                   std::span<const Vec2> position, double feed) {
-  const std::vector<CutOutline> bodies = outlines_of_bodies(facets, position);
-  if (bodies.size() == 1) return surface_of(cut_outline(facets, position), feed);
+SurfaceProfile machined_profile(const IndexedVector<CloudFacetIndex, Facet<2>>& facets,
+                                std::span<const Vec2> position, double feed) {
+  std::vector<CutOutline> bodies = outlines_of_bodies(facets, position);
+  if (bodies.size() > 1)
+    std::erase_if(bodies, [&](const CutOutline& body) {
+      return std::none_of(body.point.begin(), body.point.end(),
+                          [&](const Vec2& x) { return x.y() < -deep * feed; });
+    });
+  if (bodies.empty()) return {};
+  if (bodies.size() == 1) return {surface_of(from_the_tip(std::move(bodies.front())), feed)};
   // Walls between bodies are seen where they lean: places stand at equal distances, nodes would crowd there.
-  std::vector<std::array<Vec2, 2>> above;
+  struct Segment {
+    Vec2 from, to; ///< from left to right
+    std::size_t body;
+  };
+  std::vector<Segment> segments;
   double left = 0.0;
-  for (const CutOutline& body : bodies) {
-    const bool stays = std::any_of(body.point.begin(), body.point.end(),
-                                   [&](const Vec2& x) { return x.y() < -deep * feed; });
-    if (!stays) continue;
-    for (std::size_t k = 0; k < body.point.size(); ++k) {
-      const Vec2 &a = body.point[k], &b = body.point[(k + 1) % body.point.size()];
+  for (std::size_t n = 0; n < bodies.size(); ++n) {
+    const std::vector<Vec2>& points = bodies[n].point;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const Vec2 &a = points[k], &b = points[(k + 1) % points.size()];
       if (std::max(std::abs(a.y()), std::abs(b.y())) > near_surface * feed || a.x() == b.x()) continue;
-      above.push_back(a.x() < b.x() ? std::array{a, b} : std::array{b, a});
-      left = std::min(left, above.back()[0].x());
+      segments.push_back(a.x() < b.x() ? Segment{a, b, n} : Segment{b, a, n});
+      left = std::min(left, segments.back().from.x());
     }
   }
   const double apart = feed / 50.0;
-  std::vector<Vec2> profile;
+  SurfaceProfile profile;
+  std::size_t before = bodies.size(); // none
   for (int k = 0; - apart * k >= left; ++k) {
     const double x = -apart * k;
     double highest = -INFINITY;
-    for (const auto& [a, b] : above)
-      if (a.x() <= x && x <= b.x())
-        highest = std::max(highest, a.y() + (x - a.x()) / (b.x() - a.x()) * (b.y() - a.y()));
-    if (std::isfinite(highest)) profile.emplace_back(x, highest); // else a gap
+    std::size_t body = bodies.size();
+    for (const auto& [a, b, n] : segments) {
+      if (!(a.x() <= x && x <= b.x())) continue;
+      const double y = a.y() + (x - a.x()) / (b.x() - a.x()) * (b.y() - a.y());
+      if (y > highest) highest = y, body = n;
+    }
+    if (body != before) profile.emplace_back();
+    before = body;
+    if (body < bodies.size()) profile.back().emplace_back(x, highest); // else a gap
   }
   return profile;
 }
 
-MachinedSurface measure_surface(std::span<const Vec2> profile, std::span<const Vec2> position,
+MachinedSurface measure_surface(const SurfaceProfile& profile, std::span<const Vec2> position,
                                 const DepthFields& fields, double feed, double travelled, double clear) {
   MachinedSurface surface;
   double begin = 0.0;
-  for (const Vec2& x : profile) begin = std::min(begin, x.x());
+  for (const std::vector<Vec2>& stretch : profile)
+    for (const Vec2& x : stretch) begin = std::min(begin, x.x());
   begin = std::max(begin, -travelled);
   surface.measured.to = -clear;
   surface.measured.from = std::max(begin + clear, surface.measured.to - longest_surface * feed);
@@ -142,23 +167,25 @@ MachinedSurface measure_surface(std::span<const Vec2> profile, std::span<const V
     return x.x() >= surface.measured.from && x.x() <= surface.measured.to;
   };
   double length = 0.0, sum = 0.0;
-  for (std::size_t k = 0; k + 1 < profile.size(); ++k) {
-    const Vec2 &a = profile[k], &b = profile[k + 1], middle = 0.5 * (a + b);
-    if (!lies(middle)) continue;
-    length += (b - a).norm();
-    sum += (b - a).norm() * middle.y();
-  }
+  for (const std::vector<Vec2>& stretch : profile)
+    for (std::size_t k = 0; k + 1 < stretch.size(); ++k) {
+      const Vec2 &a = stretch[k], &b = stretch[k + 1], middle = 0.5 * (a + b);
+      if (!lies(middle)) continue;
+      length += (b - a).norm();
+      sum += (b - a).norm() * middle.y();
+    }
   if (!(length > 0.0)) {
     surface.note = "the surface has too few nodes to be measured";
     return surface;
   }
   surface.height = sum / length;
   double rough = 0.0, count = 0.0;
-  for (const Vec2& x : profile)
-    if (lies(x)) {
-      rough += std::abs(x.y() - surface.height);
-      ++count;
-    }
+  for (const std::vector<Vec2>& stretch : profile)
+    for (const Vec2& x : stretch)
+      if (lies(x)) {
+        rough += std::abs(x.y() - surface.height);
+        ++count;
+      }
   surface.roughness = count > 0.0 ? rough / count : unknown;
   surface.Rz = highest_over_lowest(profile, surface.measured);
 

@@ -46,17 +46,20 @@ struct MachinedSurface {
   double yield_ratio = unknown; ///< –, the largest in the layers
 };
 
-/// The surface that the tool has left, m, from the tip backwards; position: [node] m, in the frame of the
-/// tool. Of one body the nodes of its boundary. Where there are several, as fibres that have come off their
-/// matrix, what is seen from above of those that reach deeper than the tip by a twentieth of the feed, which
-/// chips do not: at places a fiftieth of the feed apart, none over gaps that are deeper than half of it.
-std::vector<Vec2> machined_profile(const IndexedVector<CloudFacetIndex, Facet<2>>& facets,
-                                   std::span<const Vec2> position, double feed);
+/// The surface that a tool has left, m, from the tip backwards: stretches of one body each.
+using SurfaceProfile = std::vector<std::vector<Vec2>>;
+
+/// position: [node] m, in the frame of the tool. Of several bodies, those count as workpiece that reach
+/// deeper than the tip by a twentieth of the feed, as a rule of thumb: chips do not. Of one its nodes; where
+/// there are more, as fibres that have come off their matrix, what is seen of them from above, at places a
+/// fiftieth of the feed apart, none over gaps that are deeper than half of it.
+SurfaceProfile machined_profile(const IndexedVector<CloudFacetIndex, Facet<2>>& facets,
+                                std::span<const Vec2> position, double feed);
 
 /// profile: machined_profile(). position: [node] m, in the frame of the tool. travelled, m: by the tool along
 /// the cut; what lies further behind it, as the ledge that an earlier cut has left, it has not made. clear,
 /// m: so near to the tool, and to where the cut began, nothing is measured.
-MachinedSurface measure_surface(std::span<const Vec2> profile, std::span<const Vec2> position,
+MachinedSurface measure_surface(const SurfaceProfile& profile, std::span<const Vec2> position,
                                 const DepthFields& fields, double feed, double travelled, double clear);
 
 } // namespace cnem::evaluate

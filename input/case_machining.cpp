@@ -241,8 +241,8 @@ void read_machining(Setting& root, Case& result, Diagnostics& diagnostics) {
         "missing, expected a mode of tool or part, [modes.NAME], or a [part]: nothing else can chatter");
   const double turn = read.cut.feed * static_cast<double>(read.cut.cutter.teeth());
   constexpr double turns = 12.0, share = 0.1, degree = std::numbers::pi / 180.0, corner = 0.05;
-  // Layers that lag by more than a step leave gaps of angles that none of them is at, and forces come and go
-  // by a layer where edges enter.
+  // Of half a degree to one: layers that lag by more than a step leave gaps of angles that none of them is
+  // at, and forces come and go by a layer where edges enter.
   const double lag =
       std::clamp(machining::full_turn / static_cast<double>(root.get<std::int64_t>("dexels.steps")),
                  0.5 * degree, degree);

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <numbers>
 
 namespace cnem::input {
 namespace {
@@ -191,10 +192,12 @@ std::optional<plasticity::Failure> read_failure(const Setting& table, const plas
   require_key(table, larc02 ? "eps1t" : "Xt", fmt::format("law = \"{}\"", table.get<std::string>("law")),
               diagnostics);
   if (const Setting& shear = *table.find("S"); larc02 && law.S > largest_shear_strength(law))
-    diagnostics.add(Mistake::range, shear.where, shear.path,
-                    fmt::format("found {:g} Pa beside Xc = {:g} Pa and Yc = {:g} Pa, expected at most {:.4g} "
-                                "Pa: no angle of kinks would bear Xc",
-                                law.S, law.Xc, law.Yc, largest_shear_strength(law)));
+    diagnostics.add(
+        Mistake::range, shear.where, shear.path,
+        fmt::format("found {:g} Pa beside Xc = {:g} Pa, Yc = {:g} Pa and alpha0 = {:g} deg, expected "
+                    "at most {:.4g} Pa: no angle of kinks would bear Xc",
+                    law.S, law.Xc, law.Yc, law.alpha0 * 180.0 / std::numbers::pi,
+                    largest_shear_strength(law)));
   if (law.degradation == plasticity::Degradation::energy)
     for (const char* energy : {"Gft", "Gfc", "Gmt", "Gmc"})
       require_key(table, energy, "degradation = \"energy\"", diagnostics);

@@ -228,6 +228,9 @@ machining::Bearing read_bearing(const Setting& table) {
 
 /// Sections follow each other; bearings and points stand along them.
 void check_places(const Setting& table, const ShaftCase& shaft, Diagnostics& diagnostics) {
+  if (std::any_of(shaft.sections.begin(), shaft.sections.end(),
+                  [](const machining::ShaftSection& section) { return section.to <= section.from; }))
+    return; // it has been told
   const std::vector<Setting>& tables = table.entries("sections");
   std::vector<std::size_t> order(tables.size());
   std::iota(order.begin(), order.end(), 0);

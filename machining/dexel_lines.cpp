@@ -85,7 +85,7 @@ std::vector<Interval> DexelLayer::matter(const Vec2& from, const Vec2& along, do
     clip(part, from[axis], along[axis], low, low + size_[axis]);
   };
   const double close = 1e-9 * size_.minCoeff(), end_x = from.x() + length * along.x();
-  const auto [from_x, to_x] = range(0, std::min(from.x(), end_x), std::max(from.x(), end_x));
+  const auto [from_x, to_x] = range(0, std::min(from.x(), end_x) - close, std::max(from.x(), end_x) + close);
   std::vector<Interval> parts;
   for (std::size_t i = from_x; i < to_x; ++i) {
     Interval column{0.0, length};

@@ -217,9 +217,12 @@ Refusal WorkingSurface::may_collapse(Edge e, double spacing) const {
   const NodeIndex gone = start(e), stays = end(e);
   if (held(gone)) return Refusal::held;
   constexpr double one = 0.1; // h: folds so near to each other are one
-  const bool folds_meet = length(e) < one * spacing && of_folds(gone) && on_crease(stays);
-  if (corner(gone) && !folds_meet) return Refusal::corner;
-  if (on_crease(gone) && !crease(e) && !folds_meet) return Refusal::crease;
+  const bool folds_meet = length(e) < one * spacing && of_folds(gone);
+  if (corner(gone)) {
+    if (!folds_meet || !corner(stays)) return Refusal::corner;
+  } else if (on_crease(gone) && !crease(e) && !(folds_meet && on_crease(stays))) {
+    return Refusal::crease;
+  }
   std::vector<NodeIndex> near;
   around(gone, [&](Edge k) { near.push_back(end(k)); });
   int common = 0;

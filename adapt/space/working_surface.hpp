@@ -100,8 +100,9 @@ public:
   SurfaceChange split(Edge e, const Vec3& x);
   SurfaceChange split(Edge e); ///< in the middle
   /// The node that an edge leaves goes into its end, which moves to where the volume is what it was
-  /// (Lindstrom and Turk 1998), unless it cannot. Corners stay and creases are not left, but for a crease
-  /// within a tenth of h where all is of one piece, as two folds that have met. spacing: h, m.
+  /// (Lindstrom and Turk 1998), unless it cannot. Corners stay and creases are not left, but where folds of
+  /// one piece have met within a tenth of h: a corner goes into a corner, a node of one crease into one of
+  /// another. spacing: h, m.
   SurfaceChange collapse(Edge e, double spacing);
   /// What collapse() would do, and where the node that stays would be.
   SurfaceChange try_collapse(Edge e, double spacing, Vec3& to) const;

@@ -55,7 +55,10 @@ std::array<std::vector<double>, 3> beside_steps(const PartShape& shape) {
     }
     if (!at.empty()) smallest = std::min(smallest, shape.size[axis] - before);
   }
-  constexpr double share = 0.25;
+  // places that differ by a slip are no step
+  constexpr double share = 0.25, least = 0.1; // the latter of a cell
+  for (Index axis = 0; axis < 3; ++axis)
+    smallest = std::max(smallest, least * shape.size[axis] / shape.divisions[index_of(axis)]);
   for (std::size_t axis = 0; axis < 3; ++axis)
     for (const double end : steps[axis])
       for (const double place : {end - share * smallest, end + share * smallest})

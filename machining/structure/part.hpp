@@ -29,7 +29,8 @@ struct PartShape {
 };
 
 /// Places beside the ends of zones of which something is gone, within the box, by a quarter of the smallest
-/// length between such ends: what bends at a step is as high as that, whatever the cells elsewhere. m
+/// length between such ends: what bends at a step is as high as that, whatever the cells elsewhere; at least
+/// a tenth of a cell. m
 std::array<std::vector<double>, 3> beside_steps(const PartShape& shape);
 
 /// A face of the box that is held: all unknowns of its nodes; of plates, if it turns, all but the slope

@@ -151,6 +151,13 @@ TEST(WorkingSurface, joins_corners_of_folds_that_have_come_together) {
   EXPECT_EQ(refusal(0.0005, false), Refusal::none);
   EXPECT_EQ(refusal(0.008, false), Refusal::corner) << "0.11 spacings apart";
   EXPECT_EQ(refusal(0.0005, true), Refusal::corner) << "a piece ends there";
+
+  WorkingSurface surface = surface_of(chamfered_slab(0.2, false));
+  const auto corner = as<NodeIndex>(5), other = as<NodeIndex>(6);
+  const Edge e = surface.between(corner, other);
+  const NodeIndex beside = surface.split(e, surface.at(corner) + Vec3(0.005, 0, 0)).made;
+  EXPECT_EQ(surface.collapse(surface.between(corner, beside), 0.1).refusal, Refusal::corner)
+      << "a node of its own crease is no fold that it has met";
 }
 
 TEST(WorkingSurface, leaves_held_nodes_and_closed_slits_alone) {

@@ -162,7 +162,7 @@ TEST(Surface, has_its_height_roughness_and_layers) {
   for (int k = 1; k < 150; ++k) points.emplace_back(-0.02 * k, k % 2 ? -0.02 : 0.0);
   testing::add_loop(cloud, points, 10.0);
   std::vector<Vec2> position(cloud.position.begin(), cloud.position.end());
-  const std::vector<Vec2> profile = machined_profile(cloud.facets, position, feed);
+  const SurfaceProfile profile = machined_profile(cloud.facets, position, feed);
   std::vector<double> volume(position.size(), 1e-4);
   for (double x = -2.9; x < 0.0; x += 0.02)
     for (double depth = 0.03; depth < 1.2; depth += 0.02) {
@@ -232,7 +232,7 @@ TEST(Surface, of_a_short_cut_is_measured_nearer_to_the_tool) {
   const std::vector<Vec2> position(cloud.position.begin(), cloud.position.end());
   const std::vector<double> none(position.size(), 1.0);
   const DepthFields fields{none, {none, none, none}, {none, none, none}, none, none, none};
-  const std::vector<Vec2> profile = machined_profile(cloud.facets, position, feed);
+  const SurfaceProfile profile = machined_profile(cloud.facets, position, feed);
   EXPECT_TRUE(std::isnan(measure_surface(profile, position, fields, feed, 3.0, feed).roughness));
   const MachinedSurface surface = measure_surface(profile, position, fields, feed, 3.0, 0.25 * feed);
   EXPECT_NEAR(surface.roughness, 0.01, 1e-6);
@@ -249,17 +249,35 @@ TEST(Surface, of_several_bodies_is_what_is_seen_from_above) {
   testing::add_loop(cloud, {{-1.0, -0.1}, {-0.8, -0.02}, {-0.6, -0.1}}, 0.1);
   testing::add_loop(cloud, {{-2.0, 0.01}, {-1.0, 0.01}, {-1.0, 0.05}, {-2.0, 0.05}}, 0.1);
   std::vector<Vec2> position(cloud.position.begin(), cloud.position.end());
-  const std::vector<Vec2> profile = machined_profile(cloud.facets, position, feed);
-  ASSERT_EQ(profile.size(), 468U) << "501 places, 33 of them in the gap";
-  for (const Vec2& x : profile) {
-    const double height = x.x() < -2.5 - 1e-9                   ? 0.02
-                          : x.x() < -1.5 - 1e-9 || x.x() > -1.2 ? 0.0
-                                                                : x.x() + 1.2;
-    if (std::abs(x.x() + 2.5) > 1e-9 && std::abs(x.x() + 1.5) > 1e-9) { EXPECT_NEAR(x.y(), height, 1e-12); }
-  }
+  const SurfaceProfile profile = machined_profile(cloud.facets, position, feed);
+  ASSERT_EQ(profile.size(), 2U) << "one stretch of each block";
+  EXPECT_EQ(profile[0].size() + profile[1].size(), 468U) << "501 places, 33 of them in the gap";
+  for (const std::vector<Vec2>& stretch : profile)
+    for (const Vec2& x : stretch) {
+      const bool is_wall = std::abs(x.x() + 2.5) < 1e-9 || std::abs(x.x() + 1.5) < 1e-9;
+      const double height = x.x() < -2.5 ? 0.02 : x.x() < -1.5 || x.x() > -1.2 ? 0.0 : x.x() + 1.2;
+      if (!is_wall) { EXPECT_NEAR(x.y(), height, 1e-12); }
+    }
+  const std::vector<double> none(position.size(), 1.0);
+  const MachinedSurface surface = measure_surface(
+      profile, position, {none, {none, none, none}, {none, none, none}, none, none, none}, feed, 2.0, 0.1);
+  // From -1.9 to -0.1 m: a wall of 0.1 by 0.1 m below 1.6 m at 0; the gap is no surface.
+  EXPECT_NEAR(surface.height, -0.05 * std::sqrt(0.02) / (1.5 + std::sqrt(0.02)), 2e-4);
+
   for (Facet<2>& facet : cloud.facets)
     std::swap(facet.node[0], facet.node[1]); // of a tool that cuts towards -x
-  EXPECT_EQ(machined_profile(cloud.facets, position, feed).size(), profile.size());
+  EXPECT_EQ(machined_profile(cloud.facets, position, feed)[1].size(), profile[1].size());
+}
+
+TEST(Surface, is_that_of_the_workpiece_whatever_chips_lie_beside_it) {
+  Cloud<2> alone;
+  testing::add_loop(alone, {{-3, -2}, {6, -2}, {6, feed}, {0.3, feed}, {0, 0}, {-1, -0.01}}, 0.1);
+  Cloud<2> beside = alone;
+  testing::add_loop(beside, {{-0.01, 0.001}, {0.02, 0.02}, {-0.02, 0.02}}, 0.1);
+  const auto profile = [](const Cloud<2>& cloud) {
+    return machined_profile(cloud.facets, {cloud.position.begin(), cloud.position.end()}, feed);
+  };
+  EXPECT_EQ(profile(beside), profile(alone));
 }
 
 TEST(Surface, that_an_earlier_cut_has_left_is_not_measured) {
@@ -270,7 +288,7 @@ TEST(Surface, that_an_earlier_cut_has_left_is_not_measured) {
   const std::vector<Vec2> position(cloud.position.begin(), cloud.position.end());
   const std::vector<double> none(position.size(), 1.0);
   const DepthFields fields{none, {none, none, none}, {none, none, none}, none, none, none};
-  const std::vector<Vec2> profile = machined_profile(cloud.facets, position, feed);
+  const SurfaceProfile profile = machined_profile(cloud.facets, position, feed);
   const MachinedSurface surface = measure_surface(profile, position, fields, feed, 1.0, 0.2 * feed);
   EXPECT_NEAR(surface.measured.from, -1.0 + 0.2 * feed, 1e-12);
   EXPECT_NEAR(surface.roughness, 0.01, 1e-6);

@@ -78,14 +78,20 @@ TEST(Dexels, HaveTheirMatterOnLinesOfAnyDirection) {
   layer.erase_disc(Vec2::Zero(), 1e-3);
   for (int k = 0; k < 64; ++k) {
     const double angle = std::numbers::pi * k / 32;
-    Vec2 along(std::cos(angle), std::sin(angle));
-    if (k % 16 == 0) along = Vec2(std::round(along.x()), std::round(along.y())); // along the sides of cells
-    const std::vector<Interval> matter = layer.matter(Vec2::Zero(), along, 5e-3);
-    ASSERT_EQ(matter.size(), 1U) << k;
-    EXPECT_NEAR(matter[0].low, 1e-3, 1e-6) << k;
-    EXPECT_NEAR(matter[0].high, 3e-3 / along.cwiseAbs().maxCoeff(), 1e-15) << k;
-    EXPECT_NEAR(layer.matter(Vec2::Zero(), along, 2e-3)[0].high, 2e-3, 1e-15) << "to where the line ends";
-    EXPECT_TRUE(layer.matter(4.5e-3 * along, along, 1e-3).empty()) << "beside the box";
+    const Vec2 rounded(std::cos(angle), std::sin(angle)); // along the sides of cells but for rounding
+    std::vector<Vec2> ways{rounded};
+    if (k % 16 == 0) {
+      ways.emplace_back(std::round(rounded.x()), std::round(rounded.y()));
+      ways.push_back(2.0 * ways.back() - rounded);
+    }
+    for (const Vec2& along : ways) {
+      const std::vector<Interval> matter = layer.matter(Vec2::Zero(), along, 5e-3);
+      ASSERT_EQ(matter.size(), 1U) << k;
+      EXPECT_NEAR(matter[0].low, 1e-3, 1e-6) << k;
+      EXPECT_NEAR(matter[0].high, 3e-3 / along.cwiseAbs().maxCoeff(), 1e-15) << k;
+      EXPECT_NEAR(layer.matter(Vec2::Zero(), along, 2e-3)[0].high, 2e-3, 1e-15) << "to where the line ends";
+      EXPECT_TRUE(layer.matter(4.5e-3 * along, along, 1e-3).empty()) << "beside the box";
+    }
   }
 }
 
