@@ -31,7 +31,8 @@ inline std::string broken_promise(const Cloud<3>& cloud, const DiscreteOperators
     for (auto e = index_of(op.row_begin[i]); e < index_of(op.row_begin[i + 1]); ++e) {
       const Vec3 b(op.gradient[0][e], op.gradient[1][e], op.gradient[2][e]);
       sum += b;
-      positions += cloud.position[op.node[e]] * b.transpose();
+      // from the node: from the origin the rounding of a constant counts as often as it is spacings away
+      positions += (cloud.position[op.node[e]] - cloud.position[as<NodeIndex>(i)]) * b.transpose();
       force[index_of(op.node[e])] += op.volume[i] * b;
     }
     const double volume = op.volume[i] / (spacing * spacing * spacing);

@@ -79,7 +79,8 @@ void lay(Cloud<3>& cloud, std::size_t inner, std::size_t facet, double spacing, 
   for (const NodeIndex i : outer.indices())
     if (!outer[i]) nodes.push_back(i);
   if (nodes.empty()) return;
-  const auto corner = corners_of<3>(cloud.facets.begin()[facet % cloud.facets.size()], cloud.position);
+  const auto corner =
+      corners_of<3>(cloud.facets[as<CloudFacetIndex>(facet % cloud.facets.size())], cloud.position);
   cloud.position[nodes[inner % nodes.size()]] =
       (corner[0] + corner[1] + corner[2]) / 3.0 -
       std::ldexp(spacing, -bits) * area_normal<3>(corner).normalized();
