@@ -140,9 +140,10 @@ SurfaceProfile machined_profile(const IndexedVector<CloudFacetIndex, Facet<2>>& 
       const double y = a.y() + (x - a.x()) / (b.x() - a.x()) * (b.y() - a.y());
       if (y > highest) highest = y, body = n;
     }
-    if (body != before) profile.emplace_back();
+    const bool gap = body == bodies.size();
+    if (!gap && body != before) profile.emplace_back();
+    if (!gap) profile.back().emplace_back(x, highest);
     before = body;
-    if (body < bodies.size()) profile.back().emplace_back(x, highest); // else a gap
   }
   return profile;
 }
