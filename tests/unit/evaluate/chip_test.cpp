@@ -243,7 +243,8 @@ TEST(Surface, of_several_bodies_is_what_is_seen_from_above) {
   // Two blocks with a gap between them that a chip lies over, the left one with a step up, the other with a
   // hole and a side that leans.
   Cloud<2> cloud;
-  testing::add_loop(cloud, {{-3, -2}, {-1.5, -2}, {-1.5, 0}, {-2.5, 0}, {-2.5, 0.02}, {-3, 0.02}}, 0.1);
+  testing::add_loop(cloud, {{-3, -2}, {-1.499, -2}, {-1.499, 0}, {-2.501, 0}, {-2.501, 0.02}, {-3, 0.02}},
+                    0.1);
   testing::add_loop(cloud, {{-1.2, -2}, {6, -2}, {6, feed}, {0.3, feed}, {0, 0}, {-1.2, 0}, {-1.3, -0.1}},
                     0.1);
   testing::add_loop(cloud, {{-1.0, -0.1}, {-0.8, -0.02}, {-0.6, -0.1}}, 0.1);
@@ -254,15 +255,14 @@ TEST(Surface, of_several_bodies_is_what_is_seen_from_above) {
   EXPECT_EQ(profile[0].size() + profile[1].size(), 468U) << "501 places, 33 of them in the gap";
   for (const std::vector<Vec2>& stretch : profile)
     for (const Vec2& x : stretch) {
-      const bool is_wall = std::abs(x.x() + 2.5) < 1e-9 || std::abs(x.x() + 1.5) < 1e-9;
-      const double height = x.x() < -2.5 ? 0.02 : x.x() < -1.5 || x.x() > -1.2 ? 0.0 : x.x() + 1.2;
-      if (!is_wall) { EXPECT_NEAR(x.y(), height, 1e-12); }
+      const double height = x.x() < -2.501 ? 0.02 : x.x() < -1.499 || x.x() > -1.2 ? 0.0 : x.x() + 1.2;
+      EXPECT_NEAR(x.y(), height, 1e-12);
     }
   const std::vector<double> none(position.size(), 1.0);
   const MachinedSurface surface = measure_surface(
       profile, position, {none, {none, none, none}, {none, none, none}, none, none, none}, feed, 2.0, 0.1);
-  // From -1.9 to -0.1 m: a wall of 0.1 by 0.1 m below 1.6 m at 0; the gap is no surface.
-  EXPECT_NEAR(surface.height, -0.05 * std::sqrt(0.02) / (1.5 + std::sqrt(0.02)), 2e-4);
+  // Five feeds from -0.1 m on: a wall of 0.1 by 0.1 m and 1.2 m at 0; the gap is no surface.
+  EXPECT_NEAR(surface.height, -0.05 * std::sqrt(0.02) / (1.2 + std::sqrt(0.02)), 5e-4);
 
   for (Facet<2>& facet : cloud.facets)
     std::swap(facet.node[0], facet.node[1]); // of a tool that cuts towards -x
