@@ -99,7 +99,7 @@ NodeIndex WorkingCloud::mate(NodeIndex i) const {
 bool WorkingCloud::ends_mates(NodeIndex i) const { return has_mates(i) && !exists(mate(i)); }
 
 bool WorkingCloud::is_debris(NodeIndex i) const {
-  constexpr double opened = 2.0;
+  constexpr double opened = 4.0;
   return !node().broken.empty() && node().broken[index_of(i)] >= 1.0 && node().jacobian[index_of(i)] > opened;
 }
 
