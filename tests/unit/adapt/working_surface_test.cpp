@@ -115,7 +115,7 @@ TEST(WorkingSurface, leaves_faces_creases_and_corners_of_a_cube_to_the_bit) {
 Cloud<3> chamfered_slab(double chamfer, bool lid) {
   Cloud<3> cloud;
   const std::array<Vec2, 5> outline{Vec2(0, 0), {1, 0}, {1, 1 - chamfer}, {1 - chamfer, 1}, {0, 1}};
-  for (const double z : {0.0, 0.1})
+  for (const double z : {0.0, 0.4})
     for (const Vec2& x : outline) cloud.position.emplace_back(x.x(), x.y(), z);
   const auto add = [&](std::size_t a, std::size_t b, std::size_t c, PieceIndex piece) {
     const auto node = [](std::size_t k) { return as<NodeIndex>(k); };
@@ -134,7 +134,7 @@ Cloud<3> chamfered_slab(double chamfer, bool lid) {
   return cloud;
 }
 
-// Where folds met at two corners, a fortieth of the spacing apart, both stayed and the step fell to a tenth.
+// Where folds met at two corners, a fortieth of the spacing apart, both stayed and the step fell to a sixth.
 TEST(WorkingSurface, joins_corners_of_folds_that_have_come_together) {
   const auto refusal = [](double chamfer, bool lid) {
     WorkingSurface surface = surface_of(chamfered_slab(chamfer, lid));
@@ -148,9 +148,9 @@ TEST(WorkingSurface, joins_corners_of_folds_that_have_come_together) {
     EXPECT_EQ(surface.on_surface(a), !change.done());
     return change.refusal;
   };
-  EXPECT_EQ(refusal(0.0005, false), Refusal::none);
+  EXPECT_EQ(refusal(0.0001, false), Refusal::none);
   EXPECT_EQ(refusal(0.008, false), Refusal::corner) << "0.11 spacings apart";
-  EXPECT_EQ(refusal(0.0005, true), Refusal::corner) << "a piece ends there";
+  EXPECT_EQ(refusal(0.0001, true), Refusal::corner) << "a piece ends there";
 
   WorkingSurface surface = surface_of(chamfered_slab(0.2, false));
   const auto corner = as<NodeIndex>(5), other = as<NodeIndex>(6);
@@ -158,6 +158,18 @@ TEST(WorkingSurface, joins_corners_of_folds_that_have_come_together) {
   const NodeIndex beside = surface.split(e, surface.at(corner) + Vec3(0.005, 0, 0)).made;
   EXPECT_EQ(surface.collapse(surface.between(corner, beside), 0.1).refusal, Refusal::corner)
       << "a node of its own crease is no fold that it has met";
+}
+
+TEST(WorkingSurface, joins_creases_of_folds_that_have_come_together) {
+  for (const auto& [chamfer, refusal] : {std::pair{0.0002, Refusal::none}, {0.008, Refusal::crease}}) {
+    WorkingSurface surface = surface_of(chamfered_slab(chamfer, false));
+    const auto node = [](std::size_t k) { return as<NodeIndex>(k); };
+    const NodeIndex a = surface.split(surface.between(node(2), node(7))).made,
+                    b = surface.split(surface.between(node(3), node(8))).made;
+    ASSERT_TRUE(surface.flip(surface.between(node(2), node(8)), 0.1).done()); // now a and b are neighbours
+    ASSERT_TRUE(surface.on_crease(a) && surface.on_crease(b) && !surface.crease(surface.between(a, b)));
+    EXPECT_EQ(surface.collapse(surface.between(a, b), 0.1).refusal, refusal) << chamfer;
+  }
 }
 
 TEST(WorkingSurface, leaves_held_nodes_and_closed_slits_alone) {
