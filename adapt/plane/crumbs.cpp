@@ -1,9 +1,11 @@
-// Crumbs: what is left of films that were cut, thinner than films may be, without a node inside.
+// Crumbs: bodies too small to have a shape of their own, without a node inside: what is left of films that
+// were cut, thinner than films may be, and debris.
 #include "adapt/plane/resample.hpp"
 #include "core/index.hpp"
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -24,38 +26,47 @@ std::vector<NodeIndex> short_loop(const WorkingCloud& work, NodeIndex start, std
   return loop;
 }
 
-/// Whether a loop bounds a body of its own without inner nodes, twice its area over its length below
-/// `thickness` (m), that nothing refers to.
-bool is_crumb(const WorkingCloud& work, const Structure& structure, const std::vector<NodeIndex>& loop,
-              double thickness) {
+/// Whether a loop bounds a body of its own without inner nodes that nothing refers to.
+bool is_body(const WorkingCloud& work, const Structure& structure, const std::vector<NodeIndex>& loop) {
+  for (const NodeIndex i : loop) {
+    if (work.held(i) || work.has_mates(i)) return false;
+    for (const NodeIndex k : structure.neighbours(i))
+      if (std::find(loop.begin(), loop.end(), k) == loop.end()) return false;
+  }
+  return true;
+}
+
+/// Whether twice the area of a loop over its length is below `thickness` (m), or next to nothing.
+bool is_thin(const WorkingCloud& work, const std::vector<NodeIndex>& loop, double thickness) {
+  constexpr double nothing = 0.02; // of the spacing: the step goes with it
   const auto& at = work.cloud().position;
   double twice = 0.0, length = 0.0;
   for (const NodeIndex i : loop) {
     const NodeIndex next = work.next(i);
-    if (work.held(i) || work.has_mates(i)) return false;
-    for (const NodeIndex k : structure.neighbours(i))
-      if (std::find(loop.begin(), loop.end(), k) == loop.end()) return false;
     twice += cross(at[i] - at[loop.front()], at[next] - at[loop.front()]);
     length += (at[next] - at[i]).norm();
   }
+  thickness = std::max(thickness, nothing * work.node().size[index_of(loop.front())]);
   return twice > 0.0 && twice < thickness * length;
 }
 
-/// The nearest node at the boundary of other matter of the same part that is to stay, no farther from a node
-/// of the crumb than its spacing and the extent of the crumb; none where there is none.
+bool is_broken(const WorkingCloud& work, const std::vector<NodeIndex>& loop) {
+  return std::all_of(loop.begin(), loop.end(),
+                     [&](NodeIndex i) { return work.node().broken[index_of(i)] >= 1.0; });
+}
+
+/// The nearest node at the boundary of other matter of the same part that is to stay; none where all of it
+/// goes.
 NodeIndex host_of(const WorkingCloud& work, const std::vector<NodeIndex>& crumb,
                   const IndexedVector<NodeIndex, char>& gone) {
   const auto& at = work.cloud().position;
-  double extent = 0.0;
-  for (const NodeIndex i : crumb)
-    for (const NodeIndex k : crumb) extent = std::max(extent, (at[k] - at[i]).norm());
   double nearest = std::numeric_limits<double>::infinity();
   NodeIndex host = NodeIndex::none;
   for (const NodeIndex k : work.nodes()) {
     if (!work.on_boundary(k) || gone[k] || !work.may_mix(crumb.front(), k)) continue;
     for (const NodeIndex i : crumb) {
-      const double distance = (at[k] - at[i]).norm();
-      if (distance >= std::min(nearest, work.node().size[index_of(k)] + extent)) continue;
+      const double distance = (at[k] - at[i]).squaredNorm();
+      if (distance >= nearest) continue;
       nearest = distance;
       host = k;
     }
@@ -63,33 +74,54 @@ NodeIndex host_of(const WorkingCloud& work, const std::vector<NodeIndex>& crumb,
   return host;
 }
 
+/// Each node of a crumb gets a share of the matter of all: it moves as one from there on.
+void mix(WorkingCloud& work, const std::vector<NodeIndex>& crumb, PassReport& report) {
+  std::vector<double> mass;
+  for (const NodeIndex i : crumb) mass.push_back(work.node().mass[index_of(i)]);
+  for (std::size_t k = 1; k < crumb.size(); ++k) work.move_now(crumb[k], crumb.front(), 1.0);
+  double rest = std::accumulate(mass.begin(), mass.end(), 0.0);
+  for (std::size_t k = 1; k < crumb.size(); ++k) {
+    work.move_now(crumb.front(), crumb[k], mass[k] / rest);
+    rest -= mass[k];
+  }
+  report.balanced += static_cast<int>(crumb.size());
+}
+
 } // namespace
 
 void join_crumbs(WorkingCloud& work, Structure& structure, const SplitRules& rules, PassReport& report) {
-  if (!(rules.thinnest_film > 0.0)) return;
-  WorkingCloud joined = work;
   IndexedVector<NodeIndex, char> gone(work.size(), 0);
-  std::vector<std::vector<NodeIndex>> crumbs;
+  std::vector<std::vector<NodeIndex>> thin, alone;
   for (const NodeIndex start : work.nodes()) {
     if (!work.on_boundary(start)) continue;
     const std::vector<NodeIndex> loop = short_loop(work, start, index_of(rules.least_loop));
-    if (loop.empty() || *std::min_element(loop.begin(), loop.end()) != start) continue;
-    if (is_crumb(work, structure, loop, rules.thinnest_film)) crumbs.push_back(loop);
+    if (loop.empty() || *std::min_element(loop.begin(), loop.end()) != start ||
+        !is_body(work, structure, loop))
+      continue;
+    if (is_thin(work, loop, rules.thinnest_film))
+      thin.push_back(loop);
+    else if (is_broken(work, loop))
+      alone.push_back(loop);
   }
-  for (const std::vector<NodeIndex>& loop : crumbs)
+  for (const std::vector<NodeIndex>& loop : thin)
     for (const NodeIndex i : loop) gone[i] = 1;
-  int count = 0;
-  for (const std::vector<NodeIndex>& loop : crumbs) {
-    const NodeIndex host = host_of(work, loop, gone);
-    for (const NodeIndex i : loop) {
-      gone[i] = exists(host);
-      if (!exists(host)) continue;
-      joined.move_now(i, host, 1.0);
+  std::vector<NodeIndex> host; // of those that are thin
+  for (const std::vector<NodeIndex>& loop : thin) {
+    host.push_back(host_of(work, loop, gone));
+    if (exists(host.back())) continue;
+    for (const NodeIndex i : loop) gone[i] = 0;
+    alone.push_back(loop);
+  }
+  for (const std::vector<NodeIndex>& loop : alone) mix(work, loop, report);
+  const auto count = static_cast<int>(std::count_if(host.begin(), host.end(), exists<NodeIndex>));
+  if (count == 0) return;
+  WorkingCloud joined = work;
+  for (std::size_t k = 0; k < thin.size(); ++k)
+    for (const NodeIndex i : thin[k]) {
+      if (!exists(host[k])) continue;
+      joined.move_now(i, host[k], 1.0);
       joined.bypass(i);
     }
-    count += exists(host);
-  }
-  if (count == 0) return;
   joined.drop(gone);
   joined.refresh_facets();
   std::optional<Structure> after = structure_if_valid(joined.cloud(), structure.space);

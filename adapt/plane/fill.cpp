@@ -68,6 +68,7 @@ private:
   std::vector<SimplexIndex> triangle_;
 };
 
+/// Debris is left as it is: a shred whose nodes have different velocities opens without end.
 class Filling {
 public:
   Filling(const WorkingCloud& work, const Structure& structure, const Thresholds& limit, Placement placement)
@@ -104,7 +105,7 @@ private:
         const double limit =
             (exists(across) ? limit_.long_edge : limit_.split_edge) * work_.size_between(a, b);
         const double squared = (at(b) - at(a)).squaredNorm();
-        if (squared <= limit * limit) continue;
+        if (squared <= limit * limit || (work_.is_debris(a) && work_.is_debris(b))) continue;
         // boundary edges first
         const double length = std::sqrt(squared) / limit;
         gaps_.push_back({exists(across) ? length : 1e3 * length,
@@ -119,9 +120,12 @@ private:
   void vertices() {
     const auto& mesh = structure_.mesh;
     for (const SimplexIndex t : mesh.node.indices()) {
-      if (structure_.cells.hidden_of_triangle[t] >= 0) continue;
+      const auto& nodes = mesh.node[t];
+      if (structure_.cells.hidden_of_triangle[t] >= 0 ||
+          std::all_of(nodes.begin(), nodes.end(), [&](NodeIndex i) { return work_.is_debris(i); }))
+        continue;
       double h = 0.0;
-      for (const NodeIndex i : mesh.node[t]) h += work_.node().size[index_of(i)] / 3.0;
+      for (const NodeIndex i : nodes) h += work_.node().size[index_of(i)] / 3.0;
       const Vec2& centre = structure_.circles.centre[t];
       const double radius = (centre - at(mesh.node[t][0])).norm();
       const double limit = limit_.long_edge / std::sqrt(3.0) * h;

@@ -98,9 +98,10 @@ void open_cracks(WorkingCloud& work, Structure& structure, const SplitRules& rul
 /// broken matter, and those thinner than SplitRules::thinnest_film. Matter is shared out as by split().
 void cut_films(WorkingCloud& work, Structure& structure, const SplitRules& rules, PassReport& report);
 /// Crumbs, bodies of at most SplitRules::least_loop nodes, none of them inside, and thinner than
-/// SplitRules::thinnest_film, go to the nearest node of the boundary of the same part, as far away as its
-/// spacing and the extent of the crumb at most: cells of theirs, pressed between tools and bodies, mean
-/// nothing. What has none stays. Nothing is deleted.
+/// SplitRules::thinnest_film or a fiftieth of the spacing, go to the nearest node of the boundary of the same
+/// part, however far it is: cells of theirs, pressed between tools and bodies, mean nothing. A body as small
+/// that is thicker and broken at all nodes stays, with its matter shared out evenly among its nodes, so that
+/// it moves as one. Nothing is deleted.
 void join_crumbs(WorkingCloud& work, Structure& structure, const SplitRules& rules, PassReport& report);
 /// One round; false when there was nothing to do, or it was undone because the cloud would have had no valid
 /// structure.

@@ -1,0 +1,60 @@
+// Broken matter that flies apart is not filled up with nodes.
+#include "tests/conservation/blank.hpp"
+
+#include <gtest/gtest.h>
+
+namespace cnem::adapt {
+namespace {
+
+/// A blank that has grown in passes to `times` its width and height; where it began left of `border` all of
+/// its stress is lost.
+Cloud<2> grown(const Vec2& times, double border, Placement placement) {
+  constexpr double spacing = 0.1;
+  constexpr int passes = 8;
+  Blank b = blank(spacing);
+  ResampleRules rules;
+  rules.placement = placement;
+  rules.split.least_loop = 1000; // nothing is to be cut
+  for (int pass = 1; pass <= passes; ++pass) {
+    const Vec2 each(std::pow(times.x(), 1.0 / passes), std::pow(times.y(), 1.0 / passes));
+    for (Vec2& x : b.cloud.position) x = x.cwiseProduct(each);
+    b.weigh(spacing);
+    const double jacobian = std::pow(each.prod(), pass), now = border * std::pow(each.x(), pass);
+    b.node.jacobian.assign(b.node.mass.size(), jacobian);
+    for (double& mass : b.node.mass) mass /= jacobian;
+    b.node.broken.clear();
+    for (const Vec2& x : b.cloud.position) b.node.broken.push_back(x.x() < now ? 1.0 : 0.5);
+    PassReport report;
+    b.cloud = resample(b.cloud, structure_if_valid(b.cloud), b.node, rules, report).cloud;
+  }
+  return b.cloud;
+}
+
+class Debris : public ::testing::TestWithParam<Placement> {};
+
+TEST_P(Debris, keeps_its_nodes_when_it_flies_apart) {
+  const auto before = static_cast<double>(blank(0.1).cloud.position.size());
+  for (const Vec2& times : {Vec2(5, 5), Vec2(12, 1)}) {
+    const auto debris = static_cast<double>(grown(times, 2.0, GetParam()).position.size());
+    EXPECT_LT(debris, 4.5 * before) << "what it had at four times its volume, and some";
+    EXPECT_GT(debris, before) << times.transpose();
+    EXPECT_GT(static_cast<double>(grown(times, -1.0, GetParam()).position.size()), 5.0 * before)
+        << "what holds together is filled up";
+  }
+}
+
+TEST_P(Debris, leaves_what_holds_together_beside_it_alone) {
+  const auto right_of = [&](const Cloud<2>& cloud) {
+    return std::count_if(cloud.position.begin(), cloud.position.end(),
+                         [](const Vec2& x) { return x.x() > 3.0; });
+  };
+  const auto half = static_cast<double>(right_of(grown({5, 5}, 0.5, GetParam()))),
+             whole = static_cast<double>(right_of(grown({5, 5}, -1.0, GetParam())));
+  EXPECT_NEAR(half, whole, 0.1 * whole);
+}
+
+INSTANTIATE_TEST_SUITE_P(Placed, Debris,
+                         ::testing::Values(Placement::between_nodes, Placement::voronoi_vertices));
+
+} // namespace
+} // namespace cnem::adapt
