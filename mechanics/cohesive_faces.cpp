@@ -65,7 +65,7 @@ CohesiveWork CohesiveFaces::evaluate(const Fields<2>& position) {
         const Vec2 jump = now.jump(element, end);
         const double across = now.normal.dot(jump);
         const Vec2 separation(across - state.offset, now.along.dot(jump));
-        const double damage = law.damage_at(separation, state.damage);
+        const double damage = now.across_each_other() ? 1.0 : law.damage_at(separation, state.damage);
         const double pressed = std::min(separation.x(), 0.0) * std::min(state.separation.x(), 0.0);
         work.dissipated += weight * law.dissipated(state.separation, separation, damage - state.damage);
         has_broken_ |= damage >= 1.0 && state.damage < 1.0;
@@ -95,20 +95,32 @@ CohesiveWork CohesiveFaces::evaluate(const Fields<2>& position) {
   return work;
 }
 
-double CohesiveFaces::frequency_bound(const Field& mass) const {
-  Field row(mass.size(), 0.0);
+/// Where the points of an end are apart by δ the couple of its tractions turns both segments, by lever arms
+/// δ/span: a gradient of δ has N + arm for each node, and the arms of its side besides.
+Field CohesiveFaces::stiffness_rows(const Fields<2>& position) const {
+  Field row(position[0].size(), 0.0);
   for (const CohesiveInterface& interface : interface_)
-    for (std::size_t e = 0; e < interface.element.size(); ++e)
+    for (std::size_t e = 0; e < interface.element.size(); ++e) {
+      const CohesiveElement& element = interface.element[e];
+      const PlacedElement now(element, position);
       for (std::size_t end = 0; end < 2; ++end) {
-        if (free(interface.state[e][end])) continue;
-        const CohesiveElement& element = interface.element[e];
+        const CohesiveEnd& state = interface.state[e][end];
+        if (free(state)) continue;
+        const double apart = now.jump(element, end).norm() / now.stretch;
+        const std::array<double, 2> arm{apart / now.span[0], apart / now.span[1]};
+        const double whole = interface.spec.law.stiffness * element.weight() * 2.0 * (1.0 + arm[0] + arm[1]);
         for (std::size_t s = 0; s < 2; ++s) {
           const auto values = element.values(s, end);
           for (std::size_t a = 0; a < 2; ++a)
-            row[index_of(element.side[s].node[a])] +=
-                2.0 * interface.spec.law.stiffness * element.weight() * values[a];
+            row[index_of(element.side[s].node[a])] += whole * (values[a] + arm[s]);
         }
       }
+    }
+  return row;
+}
+
+double CohesiveFaces::frequency_bound(const Fields<2>& position, const Field& mass) const {
+  const Field row = stiffness_rows(position);
   double bound = 0.0;
   for (std::size_t i = 0; i < row.size(); ++i) bound = std::max(bound, row[i] / mass[i]);
   return bound;

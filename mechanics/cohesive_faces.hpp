@@ -73,7 +73,7 @@ struct CohesiveWork {
 /// The traction potential ψ(δn, δs) of plasticity::CohesiveLaw per bonded length, with δ the difference of
 /// the places of two points that were bonded and its axes those of the mean tangent of both faces. Nodal
 /// forces are −∂ψ/∂x with the turning of the axes, so that they have neither sum nor moment, whatever the
-/// separation.
+/// separation. Segments that have turned across each other have no such axes, and are broken.
 class CohesiveFaces {
 public:
   CohesiveFaces() = default;
@@ -90,9 +90,11 @@ public:
   const Fields<2>& force() const { return force_; }
   /// Whether the last look broke anything.
   bool has_broken() const { return has_broken_; }
+  /// Rows of the stiffness of what is bonded, undamaged, [node] Pa.
+  Field stiffness_rows(const Fields<2>& position) const;
   /// A bound on the squares of the frequencies that the faces add to those of the body, 1/s²: the largest row
   /// of M⁻¹ K (Gershgorin). mass: [node] kg/m.
-  double frequency_bound(const Field& mass) const;
+  double frequency_bound(const Fields<2>& position, const Field& mass) const;
 
   /// Sets faces apart that are nearer than a 100,000th of an element, where they were bonded or, slid, touch
   /// now, so that a new reference finds no matter of one in the other; offsets follow, and so no traction
@@ -101,7 +103,8 @@ public:
   const CohesiveInterface* part(Fields<2>& position);
 
   /// Follows a changed cloud: nodes that stay keep their arc length, new ones take it from their neighbours
-  /// on the face, damage and offsets are interpolated along the arc.
+  /// on the face, damage and offsets are interpolated along the arc. Where the face was laid elsewhere, by
+  /// more than half a facet, as where a fold of it went, it is broken.
   void resample(const Resampling<2>& change);
 
   contact::Bonds bonds(const Cloud<2>& cloud) const;

@@ -7,12 +7,14 @@
 #include <fmt/format.h>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
 namespace cnem {
 namespace {
 
+constexpr double elsewhere = 0.5; ///< of a facet: chords of what was bent are nearer
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// Linear between the ends of an element.
@@ -88,6 +90,20 @@ std::vector<BondedSegment> follow(const std::vector<BondedSegment>& before, Piec
   return face;
 }
 
+/// m, where arc length `at` of a face is.
+std::optional<Vec2> place_of(const std::vector<BondedSegment>& face, double at,
+                             const IndexedVector<NodeIndex, Vec2>& position) {
+  const auto after =
+      std::upper_bound(face.begin(), face.end(), at,
+                       [](double a, const BondedSegment& segment) { return a < segment.arc[0]; });
+  if (after == face.begin()) return std::nullopt;
+  const auto& [node, arc] = *std::prev(after);
+  const double share = (at - arc[0]) / (arc[1] - arc[0]);
+  if (share > 1.0 + 1e-9) return std::nullopt;
+  const Vec2 &a = position[node[0]], &b = position[node[1]];
+  return (1.0 - share) * a + share * b;
+}
+
 } // namespace
 
 std::vector<BondedSegment> segments_of(const Cloud<2>& cloud, PieceIndex piece, std::size_t side) {
@@ -115,8 +131,20 @@ void CohesiveFaces::resample(const Resampling<2>& change) {
   for (CohesiveInterface& interface : interface_) {
     const std::vector<CohesiveElement> element = std::move(interface.element);
     const std::vector<std::array<CohesiveEnd, 2>> state = std::move(interface.state);
+    const std::array<std::vector<BondedSegment>, 2> face = interface.face;
     for (std::size_t s = 0; s < 2; ++s)
-      interface.face[s] = follow(interface.face[s], interface.spec.piece[s], s, change);
+      interface.face[s] = follow(face[s], interface.spec.piece[s], s, change);
+    const auto laid_elsewhere = [&](const CohesiveElement& made, std::size_t end) {
+      for (std::size_t s = 0; s < 2; ++s) {
+        const std::optional<Vec2> before = place_of(face[s], made.arc[end], change.old_position);
+        const auto values = made.values(s, end);
+        const Vec2 &a = change.cloud.position[made.side[s].node[0]],
+                   &b = change.cloud.position[made.side[s].node[1]];
+        if (before && (values[0] * a + values[1] * b - *before).norm() > elsewhere * (b - a).norm())
+          return true;
+      }
+      return false;
+    };
     build(interface);
     std::size_t old = 0;
     for (std::size_t e = 0; e < interface.element.size() && !element.empty(); ++e) {
@@ -135,6 +163,7 @@ void CohesiveFaces::resample(const Resampling<2>& change) {
         if (place > 0.0 && place < 1.0 && std::max(state[holder][0].damage, state[holder][1].damage) >= 1.0)
           place = middle - first < last - middle ? 0.0 : 1.0;
         interface.state[e][end] = between(state[holder], place);
+        if (laid_elsewhere(interface.element[e], end)) interface.state[e][end].damage = 1.0;
       }
     }
   }

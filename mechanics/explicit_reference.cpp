@@ -150,6 +150,11 @@ template<int dim> void ExplicitSolver<dim>::choose_mass_factors() {
   const int rounds = first ? 8 : 0; // the step in use is the stable one whatever they come to
   Field factor = scales_for_frequency(approximation_->mechanics, point.deformation, point.wave_modulus,
                                       node.mass, omega * omega / (1.0 + limit.stabilisation), rounds);
+  constexpr double of_bonds = 0.1; // what they may add to the square of the highest frequency
+  Field rows(node.size(), 0.0);
+  each([&](Term<dim>& term) { term.stiffen(body(), rows); });
+  for (std::size_t i = 0; i < node.size(); ++i)
+    factor[i] = std::max(factor[i], rows[i] / (node.mass[i] * of_bonds * omega * omega));
   if (!first)
     for (std::size_t i = 0; i < node.size(); ++i)
       for (std::size_t k = 0; k < dim; ++k)

@@ -25,6 +25,9 @@ struct PlacedElement {
     normal = left_normal(along);
   }
 
+  /// The segments are at right angles, or farther turned.
+  bool across_each_other() const { return (x[0][1] - x[0][0]).dot(x[1][1] - x[1][0]) <= 0.0; }
+
   /// m, from the point of the right face that was bonded at this end to that of the left one.
   Vec2 jump(const CohesiveElement& element, std::size_t end) const {
     const auto left = element.values(0, end), right = element.values(1, end);

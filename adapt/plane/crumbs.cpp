@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -26,14 +27,13 @@ std::vector<NodeIndex> short_loop(const WorkingCloud& work, NodeIndex start, std
   return loop;
 }
 
-/// Whether a loop bounds a body of its own without inner nodes that nothing refers to.
+/// Whether a loop bounds a body of its own without inner nodes and mates.
 bool is_body(const WorkingCloud& work, const Structure& structure, const std::vector<NodeIndex>& loop) {
-  for (const NodeIndex i : loop) {
-    if (work.held(i) || work.has_mates(i)) return false;
-    for (const NodeIndex k : structure.neighbours(i))
-      if (std::find(loop.begin(), loop.end(), k) == loop.end()) return false;
-  }
-  return true;
+  const auto in_loop = [&](NodeIndex k) { return std::find(loop.begin(), loop.end(), k) != loop.end(); };
+  return std::all_of(loop.begin(), loop.end(), [&](NodeIndex i) {
+    const auto around = structure.neighbours(i);
+    return !work.has_mates(i) && std::all_of(around.begin(), around.end(), in_loop);
+  });
 }
 
 /// Whether twice the area of a loop over its length is below `thickness` (m), or next to nothing.
@@ -98,16 +98,21 @@ void join_crumbs(WorkingCloud& work, Structure& structure, const SplitRules& rul
     if (loop.empty() || *std::min_element(loop.begin(), loop.end()) != start ||
         !is_body(work, structure, loop))
       continue;
-    if (is_thin(work, loop, rules.thinnest_film))
+    if (is_thin(work, loop, rules.thinnest_film)) {
+      for (const NodeIndex i : loop) gone[i] = 1;
       thin.push_back(loop);
-    else if (is_broken(work, loop))
+    } else if (is_broken(work, loop)) {
       alone.push_back(loop);
+    }
   }
-  for (const std::vector<NodeIndex>& loop : thin)
-    for (const NodeIndex i : loop) gone[i] = 1;
+  std::set<PieceIndex> elsewhere{rules.piece};
+  for (const NodeIndex i : work.nodes())
+    if (work.on_boundary(i) && !gone[i]) elsewhere.insert(work.piece(i));
   std::vector<NodeIndex> host; // of those that are thin
   for (const std::vector<NodeIndex>& loop : thin) {
-    host.push_back(host_of(work, loop, gone));
+    const bool may_go =
+        std::all_of(loop.begin(), loop.end(), [&](NodeIndex i) { return elsewhere.contains(work.piece(i)); });
+    host.push_back(may_go ? host_of(work, loop, gone) : NodeIndex::none);
     if (exists(host.back())) continue;
     for (const NodeIndex i : loop) gone[i] = 0;
     alone.push_back(loop);

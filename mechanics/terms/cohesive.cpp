@@ -22,7 +22,12 @@ public:
   }
 
   void limit(const Body<2>& body, StepLimit& limit) override {
-    limit.springs += body.conditions.cohesive.frequency_bound(body.state.node.inertia());
+    limit.springs +=
+        body.conditions.cohesive.frequency_bound(body.state.node.position, body.state.node.inertia());
+  }
+  void stiffen(const Body<2>& body, Field& rows) override {
+    const Field own = body.conditions.cohesive.stiffness_rows(body.state.node.position);
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i] += own[i];
   }
 
   void renew(const Body<2>& body) override { leave_to_contact(body); }

@@ -135,20 +135,26 @@ TEST(Film, crumbs_of_it_join_what_is_nearest) {
   }
 }
 
-TEST(Film, crumbs_of_other_matter_or_that_are_held_stay) {
+TEST(Film, crumbs_of_other_matter_or_with_the_last_facets_of_a_piece_stay) {
   Blank b = with_crumb(0.1 * h);
   const auto crumbs_of = [](const Blank& of) {
     WorkingCloud work(of.cloud, of.node);
     Structure structure = build_structure(of.cloud);
     PassReport report;
-    join_crumbs(work, structure, {.thinnest_film = 0.1 * h}, report);
+    join_crumbs(work, structure, {.piece = 1_piece, .thinnest_film = 0.1 * h}, report);
     return report.crumbs;
   };
   EXPECT_EQ(crumbs_of(b), 1);
   const std::size_t last = b.node.mass.size() - 1;
   b.node.held[as<NodeIndex>(last)] = 1;
-  EXPECT_EQ(crumbs_of(b), 0);
-  b.node.held[as<NodeIndex>(last)] = 0;
+  EXPECT_EQ(crumbs_of(b), 1) << "a corner of nothing";
+  b.cloud.piece_names = {"boundary", "fracture", "bed"};
+  b.cloud.facets.back().piece = 1_piece;
+  EXPECT_EQ(crumbs_of(b), 1) << "faces of cuts may go";
+  b.cloud.facets.back().piece = 2_piece;
+  EXPECT_EQ(crumbs_of(b), 0) << "what is prescribed on a piece would have nothing to act on";
+  b.cloud.facets.front().piece = 2_piece;
+  EXPECT_EQ(crumbs_of(b), 1);
   b.node.part.assign(last + 1, 0);
   for (std::size_t i = last - 3; i <= last; ++i) b.node.part[i] = 1;
   EXPECT_EQ(crumbs_of(b), 0);

@@ -96,13 +96,9 @@ TEST(CohesiveFaces, forces_are_the_gradient_of_what_is_stored) {
     }
 }
 
-TEST(CohesiveFaces, frequency_is_bounded) {
-  const Cloud<2> cloud = two_faces(matching, other);
-  CohesiveFaces faces = faces_of(cloud);
-  const Fields<2> x = places(cloud);
+/// The largest square of a frequency of two faces alone at places, by differences of their forces, 1/s².
+double largest_frequency(CohesiveFaces faces, const Fields<2>& x, const Field& mass) {
   const std::size_t n = x[0].size();
-  Field mass(n);
-  for (std::size_t i = 0; i < n; ++i) mass[i] = 1e-6 * (1.0 + static_cast<double>(i % 3));
   Eigen::MatrixXd matrix(2 * n, 2 * n);
   const double step = 1e-10;
   for (std::size_t j = 0; j < 2 * n; ++j) {
@@ -118,11 +114,51 @@ TEST(CohesiveFaces, frequency_is_bounded) {
           -(force[0][i / n][i % n] - force[1][i / n][i % n]) / (2 * step) /
           std::sqrt(mass[i % n] * mass[j % n]);
   }
-  const double largest = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(0.5 * (matrix + matrix.transpose()))
-                             .eigenvalues()
-                             .maxCoeff();
-  EXPECT_GE(faces.frequency_bound(mass), largest);
-  EXPECT_LE(faces.frequency_bound(mass), 2.0 * largest);
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(0.5 * (matrix + matrix.transpose()))
+      .eigenvalues()
+      .maxCoeff();
+}
+
+TEST(CohesiveFaces, frequency_is_bounded) {
+  const Cloud<2> cloud = two_faces(matching, other);
+  const CohesiveFaces faces = faces_of(cloud);
+  const Fields<2> x = places(cloud);
+  Field mass(x[0].size());
+  for (std::size_t i = 0; i < mass.size(); ++i) mass[i] = 1e-6 * (1.0 + static_cast<double>(i % 3));
+  const double largest = largest_frequency(faces, x, mass);
+  EXPECT_GE(faces.frequency_bound(x, mass), largest);
+  EXPECT_LE(faces.frequency_bound(x, mass), 2.0 * largest);
+}
+
+/// Pressed together after they have slid by some facets, still bonded: the couple has lever arms of as many.
+TEST(CohesiveFaces, frequency_is_bounded_where_faces_have_slid) {
+  const Cloud<2> cloud = two_faces(matching, {0, 0.99 * h, 1.01 * h, 2.5 * h, 3 * h, 4 * h});
+  const double slid = 1.2 * h;
+  CohesiveFaces faces = faces_of(cloud, true);
+  Fields<2> x = places(cloud);
+  const Field mass(x[0].size(), 1e-6);
+  const double at_rest = largest_frequency(faces, x, mass);
+  for (std::size_t i = 0; i < matching.size(); ++i) x[0][i] += slid, x[1][i] -= 1e-6;
+  faces.evaluate(x);
+  const double largest = largest_frequency(faces, x, mass);
+  EXPECT_GT(largest, 3.0 * at_rest);
+  EXPECT_GE(faces.frequency_bound(x, mass), largest);
+  EXPECT_LE(faces.frequency_bound(x, mass), 4.0 * largest);
+}
+
+TEST(CohesiveFaces, that_have_turned_across_each_other_are_broken) {
+  for (const double turn : {0.45, 0.55}) { // of π
+    const Cloud<2> cloud = two_faces(matching, matching);
+    CohesiveFaces faces = faces_of(cloud, true);
+    Fields<2> x = places(cloud);
+    for (std::size_t i = 0; i < matching.size(); ++i) { // the upper face comes into the lower one
+      x[1][i] = -x[0][i] * std::sin(turn * std::numbers::pi);
+      x[0][i] *= std::cos(turn * std::numbers::pi);
+    }
+    const CohesiveWork work = faces.evaluate(x);
+    EXPECT_EQ(CohesiveFaces::broken_length(faces.interfaces()[0]) > 3.9 * h, turn > 0.5);
+    EXPECT_EQ(work.stored == 0.0, turn > 0.5);
+  }
 }
 
 TEST(CohesiveFaces, open_parts_bear_nothing_and_are_left_to_contact) {
@@ -150,6 +186,7 @@ TEST(CohesiveFaces, open_parts_bear_nothing_and_are_left_to_contact) {
 Resampling<2> one_more_node(const Cloud<2>& cloud) {
   Resampling<2> change;
   change.cloud = cloud;
+  change.old_position = cloud.position;
   const std::size_t n = cloud.position.size();
   const NodeIndex a = as<NodeIndex>(1), b = as<NodeIndex>(2), made = as<NodeIndex>(n);
   change.cloud.position.push_back(0.5 * (cloud.position[a] + cloud.position[b]));
@@ -205,6 +242,47 @@ TEST(CohesiveFaces, nothing_heals_where_nodes_come) {
   EXPECT_NEAR(broken, 1.0 * h, 1e-18);
   faces.resample(one_more_node(cloud));
   EXPECT_NEAR(CohesiveFaces::broken_length(faces.interfaces()[0]), broken, 1e-18);
+}
+
+/// The middle node of the upper face stands out by `height` and goes.
+Resampling<2> without_middle_node(const Cloud<2>& cloud, double height) {
+  Resampling<2> change;
+  change.cloud = cloud;
+  change.old_position = cloud.position;
+  change.old_position[as<NodeIndex>(2)].y() += height;
+  change.cloud.position.erase(change.cloud.position.begin() + 2);
+  change.cloud.facets.clear();
+  const auto renumbered = [](NodeIndex i) { return as<NodeIndex>(index_of(i) - (index_of(i) > 2 ? 1 : 0)); };
+  for (const Facet<2>& facet : cloud.facets) {
+    const auto [a, b] = facet.node;
+    if (a == as<NodeIndex>(2)) continue;
+    change.cloud.facets.push_back(
+        {{renumbered(a), renumbered(b == as<NodeIndex>(2) ? as<NodeIndex>(3) : b)}, facet.piece});
+  }
+  change.labels.begin.assign(1, 0);
+  for (std::size_t i = 0; i < cloud.position.size(); ++i) {
+    change.new_of.push_back(i == 2 ? NodeIndex::none : renumbered(as<NodeIndex>(i)));
+    if (i == 2) continue;
+    change.old_of.push_back(as<NodeIndex>(i));
+    change.labels.from.push_back(as<NodeIndex>(i));
+    change.labels.weight.push_back(1.0);
+    change.labels.begin.push_back(static_cast<std::int32_t>(change.labels.from.size()));
+  }
+  return change;
+}
+
+TEST(CohesiveFaces, break_where_the_face_is_laid_elsewhere) {
+  for (const auto& [height, broken] : {std::pair{0.9 * h, 0.0}, {1.1 * h, 1.0}}) {
+    const Cloud<2> cloud = two_faces(matching, matching);
+    CohesiveFaces faces = faces_of(cloud, true);
+    faces.resample(without_middle_node(cloud, height)); // of a facet of 2 h
+    const CohesiveInterface& after = faces.interfaces()[0];
+    ASSERT_EQ(after.element.size(), 4u);
+    EXPECT_EQ(after.state[1][0].damage, 0.0);
+    EXPECT_EQ(after.state[1][1].damage, broken);
+    EXPECT_EQ(after.state[2][0].damage, broken);
+    EXPECT_EQ(after.state[2][1].damage, 0.0);
+  }
 }
 
 } // namespace
