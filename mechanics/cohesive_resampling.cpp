@@ -30,7 +30,8 @@ CohesiveEnd between(const std::array<CohesiveEnd, 2>& ends, double place) {
   return result;
 }
 
-/// [new node] arc length of those that are old nodes of a face, or made of such alone; NaN elsewhere.
+/// [new node] arc length of those that are old nodes of a face, or made of such alone, or that a node of it
+/// went into; NaN elsewhere.
 IndexedVector<NodeIndex, double> known_arcs(const std::vector<BondedSegment>& before,
                                             const Resampling<2>& change) {
   IndexedVector<NodeIndex, double> old(change.new_of.size(), unknown), now(change.old_of.size(), unknown);
@@ -39,6 +40,12 @@ IndexedVector<NodeIndex, double> known_arcs(const std::vector<BondedSegment>& be
   for (const NodeIndex i : now.indices()) {
     if (exists(change.old_of[i])) {
       now[i] = old[change.old_of[i]];
+      if (std::isnan(now[i]))
+        for (auto e = index_of(change.parcels.begin[index_of(i)]);
+             e < index_of(change.parcels.begin[index_of(i) + 1]); ++e)
+          if (const NodeIndex from = change.parcels.from[e];
+              !exists(change.new_of[from]) && !std::isnan(old[from]))
+            now[i] = old[from];
       continue;
     }
     now[i] = 0.0;

@@ -35,6 +35,7 @@ Resampling<2> resample(const Cloud<2>& cloud, std::optional<Structure> structure
     if (rules.split.cracks) open_cracks(work, *structure, rules.split, report);
     cut_films(work, *structure, rules.split, report);
   }
+  join_ends(work, *structure, report);
   const Thresholds& thresholds = rules.thresholds;
   for (int round = 0; round < thresholds.rounds; ++round)
     if (!thin(work, *structure, thresholds, report)) break;

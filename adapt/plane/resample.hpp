@@ -103,6 +103,10 @@ void cut_films(WorkingCloud& work, Structure& structure, const SplitRules& rules
 /// that is thicker and broken at all nodes stays, with its matter shared out evenly among its nodes, so that
 /// it moves as one. Nothing is deleted.
 void join_crumbs(WorkingCloud& work, Structure& structure, const SplitRules& rules, PassReport& report);
+/// Facets shorter than a twentieth of the spacing between two nodes that stay, corners and ends of pieces, go
+/// with the first of them, but for the last facet of a piece: nothing else takes them away, and the step, or
+/// the inertia that scaling adds, goes with them.
+void join_ends(WorkingCloud& work, Structure& structure, PassReport& report);
 /// One round; false when there was nothing to do, or it was undone because the cloud would have had no valid
 /// structure.
 bool thin(WorkingCloud& work, Structure& structure, const Thresholds& thresholds, PassReport& report);

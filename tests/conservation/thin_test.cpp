@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <gtest/gtest.h>
+#include <numeric>
 #include <tuple>
 
 namespace cnem::adapt {
@@ -46,6 +47,49 @@ TEST(Thin, shallow_slits_are_closed) {
     EXPECT_EQ(change.new_of[bottom], NodeIndex::none) << depth;
     EXPECT_GT(shortest_facet(change.cloud), 0.03) << depth;
     EXPECT_NEAR(testing::area(change.cloud), 0.6, 1e-3 * 0.6) << depth;
+  }
+}
+
+// Beside a fibre that ends at a corner the matrix has a facet of its own, which is pressed together.
+TEST(Thin, a_short_facet_between_corners_goes_unless_it_is_the_last_of_its_piece) {
+  for (const auto& [length, pieces, goes] :
+       {std::tuple{0.004, 2, true}, {0.006, 2, false}, {0.004, 1, false}}) {
+    Blank b;
+    testing::add_loop(b.cloud, {{0.0, 0.0}, {0.5, 0.0}, {0.5, length}, {1.0, length}, {1.0, 0.6}, {0.0, 0.6}},
+                      0.1);
+    testing::fill(b.cloud, testing::Lattice::hexagonal, 0.1, 0.2, 0.05, 1);
+    b.weigh(0.1);
+    b.cloud.piece_names = {"bottom", "face", "ledge"};
+    NodeIndex corner = NodeIndex::none;
+    for (Facet<2>& facet : b.cloud.facets) {
+      const Vec2 &from = b.cloud.position[facet.node[0]], &to = b.cloud.position[facet.node[1]];
+      if (from.y() == length && to.y() == length) facet.piece = 2_piece;
+      if ((to - from).norm() < 0.01) {
+        corner = facet.node[0];
+        for (const NodeIndex i : facet.node) b.node.held[i] = 1;
+      }
+      if ((to - from).norm() < 0.01 || (pieces == 2 && from.x() == 1.0 && to.x() == 1.0))
+        facet.piece = 1_piece;
+    }
+    ASSERT_TRUE(exists(corner));
+    WorkingCloud work(b.cloud, b.node);
+    Structure structure = build_structure(b.cloud);
+    PassReport report;
+    join_ends(work, structure, report);
+    const Resampling<2> change = work.finish();
+    EXPECT_EQ(!exists(change.new_of[corner]), goes) << length << " " << pieces;
+    EXPECT_EQ(report.undone, 0);
+    EXPECT_EQ(shortest_facet(change.cloud) > 0.05, goes);
+    EXPECT_EQ(structure.mesh.triangle_of_node.size(), change.cloud.position.size());
+    double mass = 0.0;
+    for (std::size_t e = 0; e < change.parcels.from.size(); ++e)
+      mass += change.parcels.weight[e] * b.node.mass[index_of(change.parcels.from[e])];
+    EXPECT_NEAR(mass, std::accumulate(b.node.mass.begin(), b.node.mass.end(), 0.0), 1e-14);
+    for (const Facet<2>& facet : change.cloud.facets) { // each piece goes on to its end
+      const Vec2 &from = change.cloud.position[facet.node[0]], &to = change.cloud.position[facet.node[1]];
+      if (from.y() == 0.0 && to.x() == 0.5 && goes) { EXPECT_EQ(facet.piece, 0_piece); }
+      if (from.x() == 0.5 && to.x() > 0.5) { EXPECT_EQ(facet.piece, 2_piece); }
+    }
   }
 }
 

@@ -203,6 +203,7 @@ Resampling<2> one_more_node(const Cloud<2>& cloud) {
     }
     change.labels.begin.push_back(static_cast<std::int32_t>(change.labels.from.size()));
   }
+  change.parcels = change.labels;
   return change;
 }
 
@@ -268,6 +269,7 @@ Resampling<2> without_middle_node(const Cloud<2>& cloud, double height) {
     change.labels.weight.push_back(1.0);
     change.labels.begin.push_back(static_cast<std::int32_t>(change.labels.from.size()));
   }
+  change.parcels = change.labels;
   return change;
 }
 
@@ -282,6 +284,40 @@ TEST(CohesiveFaces, break_where_the_face_is_laid_elsewhere) {
     EXPECT_EQ(after.state[1][1].damage, broken);
     EXPECT_EQ(after.state[2][0].damage, broken);
     EXPECT_EQ(after.state[2][1].damage, 0.0);
+  }
+}
+
+TEST(CohesiveFaces, end_at_the_node_that_their_last_one_went_into) {
+  Cloud<2> cloud = two_faces(matching, matching);
+  const NodeIndex last = as<NodeIndex>(matching.size() - 1), corner = as<NodeIndex>(cloud.position.size());
+  cloud.position.push_back({4.01 * h, 0.0});
+  cloud.facets.push_back({{last, corner}, as<PieceIndex>(2)});
+  for (const bool carried : {false, true}) {
+    CohesiveFaces faces = faces_of(cloud, true);
+    Resampling<2> change;
+    change.cloud = cloud;
+    change.old_position = cloud.position;
+    change.cloud.facets.pop_back();
+    change.cloud.facets[as<CloudFacetIndex>(matching.size() - 2)].node[1] = corner;
+    change.parcels.begin.assign(1, 0);
+    for (std::size_t i = 0; i < cloud.position.size(); ++i) { // the last stays where it is, on no facet
+      const auto node = as<NodeIndex>(i);
+      change.new_of.push_back(node == last ? NodeIndex::none : node);
+      change.old_of.push_back(node == last ? NodeIndex::none : node);
+      change.parcels.from.push_back(node);
+      change.parcels.weight.push_back(1.0);
+      if (carried && node == corner) {
+        change.parcels.from.push_back(last);
+        change.parcels.weight.push_back(1.0);
+      }
+      change.parcels.begin.push_back(static_cast<std::int32_t>(change.parcels.from.size()));
+    }
+    change.labels = change.parcels;
+    faces.resample(change);
+    const CohesiveInterface& after = faces.interfaces()[0];
+    EXPECT_EQ(after.element.size(), carried ? 4u : 3u);
+    EXPECT_EQ(after.face[0].back().node[1] == corner, carried);
+    EXPECT_NEAR(after.face[0].back().arc[1], carried ? 4 * h : 3 * h, 1e-12 * h);
   }
 }
 
