@@ -49,6 +49,7 @@ public:
                    [&](const input::Member& member) { read_constant(member); });
     for_each_table("targets", "[targets.NAME]", [&](const input::Member& member) { read_target(member); });
     check_keys();
+    check_weights();
     diagnostics_.throw_if_any();
     check_budget();
     read_cases();
@@ -168,7 +169,7 @@ private:
         target.set.push_back(std::move(change));
     if (const auto weight = number(reader, table, path, "weight", input::Dimension{}))
       target.weight = weight->si;
-    if (!(target.weight > 0.0)) reader.wrong("weight", table.find("weight")->value, "a number above 0");
+    if (!(target.weight >= 0.0)) reader.wrong("weight", table.find("weight")->value, "0 or more");
     target.cut = read_cut(reader, table, path, closed_form_, diagnostics_);
     if (table.find("file") && target.cut)
       diagnostics_.add(Mistake::conflict, table.find("file")->where, path + "file",
@@ -265,6 +266,14 @@ private:
                            fmt::format("found '{}', which parameters.{} ({}) looks for, expected another key",
                                        constant.key, first.name, first.where.text()));
       }
+  }
+
+  void check_weights() {
+    const auto& targets = result_.targets;
+    if (!targets.empty() &&
+        std::none_of(targets.begin(), targets.end(), [](const auto& target) { return target.fitted(); }))
+      diagnostics_.add(Mistake::conflict, root_.find("targets")->where, "targets",
+                       "found all of them with weight = 0, expected one at least that is fitted");
   }
 
   void check_budget() {
