@@ -271,7 +271,7 @@ private:
   void check_weights() {
     const auto& targets = result_.targets;
     if (!targets.empty() &&
-        std::none_of(targets.begin(), targets.end(), [](const auto& target) { return target.fitted(); }))
+        std::none_of(targets.begin(), targets.end(), [](const auto& target) { return target.weight != 0.0; }))
       diagnostics_.add(Mistake::conflict, root_.find("targets")->where, "targets",
                        "found all of them with weight = 0, expected one at least that is fitted");
   }
@@ -327,9 +327,11 @@ private:
     }
     if (!target.point) {
       if (input.report.experiments.empty())
-        throw InputError(fmt::format("{}: key 'targets.{}': the case {} has no [report.experiment], expected "
-                                     "a measured curve in it, or `file` for the curve of a single point",
-                                     target.where.text(), target.name, target.case_file.string()));
+        throw InputError(
+            fmt::format("{}: key 'targets.{}': the case {} has no [report.experiment], expected "
+                        "a measured curve in it, `file` for the curve of a single point, or `Fc`, `Ft` or "
+                        "`chip_thickness` of a cut",
+                        target.where.text(), target.name, target.case_file.string()));
       return;
     }
     if (target.point->material.empty()) target.point->material = input.domain.material;
