@@ -94,9 +94,18 @@ std::optional<ShearZone> shear_zone(const plasticity::Material& material, const 
   PlaneBalance zone(material, cut);
   const double low = degree, high = 89.0 * degree - std::max(0.0, std::atan(cut.friction) - cut.rake);
   if (!(high > low)) return std::nullopt;
-  const double at_low = zone.unbalance(low), at_high = zone.unbalance(high);
-  if (!(at_low < 0.0 && at_high > 0.0)) return std::nullopt;
-  return zone.at_angle(root([&](double phi) { return zone.unbalance(phi); }, low, high, at_low, at_high));
+  double from = low, at_from = zone.unbalance(low);
+  const double at_high = zone.unbalance(high);
+  // Metal that hardens strongly bears less than it has to at very small angles too, where its strain is that
+  // of no chip: the larger of two roots is the chip's.
+  for (double phi = high - degree; at_from >= 0.0 && phi > low; phi -= degree) {
+    from = phi;
+    at_from = zone.unbalance(phi);
+  }
+  if (!(at_from < 0.0 && at_high > 0.0)) return std::nullopt;
+  const double to = from == low ? high : from + degree;
+  return zone.at_angle(
+      root([&](double phi) { return zone.unbalance(phi); }, from, to, at_from, zone.unbalance(to)));
 }
 
 } // namespace cnem::evaluate

@@ -6,6 +6,7 @@
 #include "input/case_reader.hpp"
 #include "results/folder_lock.hpp"
 #include "results/output_folder.hpp"
+#include "study/calibration_least_squares.hpp"
 #include "study/calibration_search.hpp"
 
 #include <nlohmann/json.hpp>
@@ -19,7 +20,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kind = "calibration";
-constexpr double difference_step = 0.03; ///< of a place, for sensitivities
 
 /// Constants with their values, in words.
 std::string constants_in_words(const Calibration& calibration, const Eigen::VectorXd& place) {
@@ -65,32 +65,6 @@ bool search_all(const Calibration& calibration, Evaluator& evaluator, std::vecto
   }
 }
 
-/// Sensitivities of the residuals about a place, by central differences where both sides are within the
-/// bounds and go well; not-a-number where neither side goes well. None after a signal.
-std::optional<Eigen::MatrixXd> jacobian_at(const Eigen::VectorXd& place, Evaluator& evaluator) {
-  std::vector<Eigen::VectorXd> sides;
-  for (Eigen::Index k = 0; k < place.size(); ++k)
-    for (const double way : {-1.0, 1.0}) {
-      sides.push_back(place);
-      sides.back()[k] = std::clamp(place[k] + way * difference_step, 0.0, 1.0);
-    }
-  if (!evaluator.evaluate(sides)) return std::nullopt;
-  const Evaluation& middle = *evaluator.known(place);
-  Eigen::MatrixXd jacobian(middle.residual.size(), place.size());
-  for (Eigen::Index k = 0; k < place.size(); ++k) {
-    const auto usable = [&](std::size_t side) -> const Evaluation& {
-      const Evaluation& one = *evaluator.known(sides[side]);
-      return one.good() && one.residual.size() == middle.residual.size() ? one : middle;
-    };
-    const Evaluation &low = usable(2 * index_of(k)), &high = usable(2 * index_of(k) + 1);
-    if (high.place[k] > low.place[k])
-      jacobian.col(k) = (high.residual - low.residual) / (high.place[k] - low.place[k]);
-    else
-      jacobian.col(k).setConstant(std::nan(""));
-  }
-  return jacobian;
-}
-
 /// What cnem calibrate names so: run folders of a target, and what they print beside them.
 bool is_of_run(const std::string& name, const Calibration& calibration) {
   constexpr std::size_t hash_digits = 16;
@@ -124,6 +98,11 @@ Exit interrupted() {
 
 void tell(const Calibration& calibration, const CalibrationResult& result, const fs::path& folder) {
   fmt::print("\nmisfit: {} at the start, {} now\n", misfit_text(result.start), misfit_text(result.best));
+  if (const auto misfit = result.best.left_out_misfit()) {
+    const auto before = result.start.left_out_misfit();
+    fmt::print("misfit of what is left out: {} at the start, {:.3g}% now\n",
+               before ? fmt::format("{:.3g}%", 100.0 * *before) : "failed", 100.0 * *misfit);
+  }
   for (std::size_t k = 0; k < calibration.constants.size(); ++k) {
     const SoughtConstant& constant = calibration.constants[k];
     const auto at = static_cast<Eigen::Index>(k);
@@ -147,15 +126,20 @@ void tell(const Calibration& calibration, const CalibrationResult& result, const
 
 std::vector<std::string> warnings_of(const Calibration& calibration, const CalibrationResult& result) {
   std::vector<std::string> list = calibration.warnings;
-  constexpr double apart = 1.0; // of the peak
+  constexpr double apart = 1.0;    // of the peak
+  constexpr double doubtful = 3.0; // standard errors of a number, which may be near 0
   for (const CalibratedCurve& curve : result.best.curves) {
     if (!curve.note.empty()) list.push_back(fmt::format("{}: {}", curve.name, curve.note));
-    if (curve.rms_share > apart)
+    if (curve.rms_share > apart &&
+        !(curve.single_number() && curve.rms_share < doubtful * curve.relative_error))
       list.push_back(
-          fmt::format("{}: computed and measured values differ by {:.3g} times the measured peak: are "
-                      "the columns in the units that are meant?",
-                      curve.name, curve.rms_share));
+          fmt::format("{}: computed and measured values differ by {:.3g} times the measured {}: are "
+                      "{} in the units that are meant?",
+                      curve.name, curve.rms_share, curve.single_number() ? "number" : "peak",
+                      curve.single_number() ? "they" : "the columns"));
   }
+  for (const std::string& failure : result.best.left_out_failures)
+    list.push_back("left out, and not compared: " + failure);
   if (result.failures > 0)
     list.push_back(fmt::format("{} of {} evaluations failed and counted as a misfit of {:g}%",
                                result.failures, result.evaluations, misfit_percent(failed_misfit)));
@@ -181,10 +165,23 @@ Exit calibrate(const Calibration& calibration, const BatchOptions& options) {
   const auto best = std::min_element(
       result.searches.begin(), result.searches.end(),
       [](const SearchEnd& a, const SearchEnd& b) { return a.course[a.best].better_than(b.course[b.best]); });
-  const Evaluation& found = *evaluator.known(best->course[best->best].place);
+  Eigen::VectorXd place = best->course[best->best].place;
+  const bool any_run = std::any_of(calibration.targets.begin(), calibration.targets.end(),
+                                   [](const auto& target) { return target.runs() && target.fitted(); });
+  if (!any_run && evaluator.known(place)->good()) {
+    const std::optional<Eigen::VectorXd> least = least_squares_from(place, evaluator);
+    if (!least) return interrupted();
+    place = *least;
+  }
+  const Evaluation& found = *evaluator.known(place);
+  if (found.good() && !evaluator.compare_left_out({place, result.searches.front().course.front().place}))
+    return interrupted();
   result.start = *evaluator.known(result.searches.front().course.front().place);
   if (!found.good()) {
-    fmt::print(stderr, "failed: no evaluation went well, the last one: {}\n", found.failure);
+    fmt::print(stderr,
+               "failed: no evaluation went well, the last one: {}\nTry another start, or `starts = 3` for "
+               "more of them between the bounds.\n",
+               found.failure);
     return Exit::diverged;
   }
   result.best = found;

@@ -64,11 +64,12 @@ struct CalibrationTarget {
   input::Location where;
   std::filesystem::path case_file;
   std::vector<input::Override> set;
-  double weight = 1.0;
+  double weight = 1.0;              ///< 0: it is left out of the search, and compared in the end
   std::optional<PointTarget> point; ///< none: the case is run
   std::optional<CutTarget> cut;     ///< its cut is compared, in place of curves
 
   bool runs() const { return !point && !(cut && cut->closed_form); }
+  bool fitted() const { return weight > 0.0; }
 };
 
 struct Calibration {
@@ -100,19 +101,27 @@ struct CalibratedCurve {
   double relative_error = 0.0;                ///< of a number of a cut, as a share of its peak
   double weight = 1.0;    ///< beside that of its target: of a number of a cut, by its error
   double rms_share = 0.0; ///< – root mean square of the difference over the measured peak
+  bool fitted = true;     ///< false: of a target that is left out of the search
+
+  bool single_number() const { return measured.x.size() < 2; } ///< of a cut
 };
 
 /// What constants have come to.
 struct Evaluation {
   Eigen::VectorXd place;
-  std::string failure; ///< empty: it went well
-  std::vector<CalibratedCurve> curves;
-  std::vector<std::size_t> lengths{}; ///< residuals of each curve
-  Eigen::VectorXd residual;           ///< weighted, so that its squares add up to the misfit
-  double misfit = 0.0;                ///< – mean of the squared rms shares of all curves by weight
-  double known_variance = 0.0;        ///< of each residual, by the errors of numbers; 0: not known
+  std::string failure;                 ///< empty: it went well
+  std::vector<CalibratedCurve> curves; ///< behind them those that are left out, once they are compared
+  std::vector<std::size_t> lengths{};  ///< residuals of each curve that is fitted
+  std::vector<std::string> left_out_failures{}; ///< of targets that are left out
+  Eigen::VectorXd residual;                     ///< weighted, so that its squares add up to the misfit
+  double misfit = 0.0;         ///< – mean of the squared rms shares of all curves by weight
+  double known_variance = 0.0; ///< of each residual, by the errors of numbers; 0: not known
 
   bool good() const { return failure.empty(); }
+  /// Of that name; nullptr without one.
+  const CalibratedCurve* curve(const std::string& name) const;
+  /// Root mean square of the rms shares of the curves that are left out; none without one.
+  std::optional<double> left_out_misfit() const;
 };
 
 /// The misfit of constants with which a run fails: twice the measured peak everywhere.

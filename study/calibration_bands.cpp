@@ -69,6 +69,7 @@ std::vector<FlowBand> flow_bands(const Calibration& calibration, const Calibrati
   const Evaluator evaluator(calibration, options);
   std::vector<FlowBand> bands;
   for (const CalibrationTarget& target : calibration.targets) {
+    if (!target.fitted()) continue;
     const auto read = [&](const Eigen::VectorXd& place) {
       return input::read_case_with(target.case_file.string(), calibration.changes(target, place));
     };

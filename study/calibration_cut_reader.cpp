@@ -65,6 +65,8 @@ std::optional<CutTarget> read_cut(TableReader& reader, const input::Value& table
     MeasuredNumber& measured = cut.measured.emplace_back();
     measured = {what, written->si, dimension == per && what != What::chip_thickness,
                 usual * std::abs(written->si), false};
+    if (what == What::Fc && !(measured.value > 0.0))
+      reader.wrong(key, table.find(key)->value, "a force above 0: it is that on the tool, along the cut");
     if (what == What::chip_thickness && !(measured.value > 0.0))
       reader.wrong(key, table.find(key)->value, "a thickness above 0");
     if (!error && measured.value == 0.0)

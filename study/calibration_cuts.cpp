@@ -22,7 +22,10 @@ struct ComputedCut {
 
 ComputedCut by_shear_zone(const input::Case& input) {
   const auto zone = closed_form_cut(input);
-  if (!zone) return {.failure = "the shear zone finds no angle at which its chip flows", .note = ""};
+  if (!zone)
+    return {.failure = "the shear zone finds no angle at which its chip flows: the metal hardens too much "
+                       "for it, or friction is too high",
+            .note = ""};
   return {zone->Fc, zone->Ft, zone->chip_thickness, input.cutting->width, "", ""};
 }
 

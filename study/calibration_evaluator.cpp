@@ -84,7 +84,38 @@ std::vector<double> places_of_residuals(const std::vector<double>& measured) {
   return places;
 }
 
+/// computed − measured at the places of residuals; sets the rms share.
+std::vector<double> compare(CalibratedCurve& curve) {
+  const evaluate::ComparedCurve& measured = curve.measured;
+  const std::vector<double> at = places_of_residuals(measured.x);
+  std::vector<double> difference = evaluate::interpolated(curve.computed.x, curve.computed.y, at);
+  const std::vector<double> there = evaluate::interpolated(measured.x, measured.y, at);
+  double squares = 0.0;
+  for (std::size_t k = 0; k < at.size(); ++k) {
+    difference[k] -= there[k];
+    squares += difference[k] * difference[k];
+  }
+  curve.rms_share = std::sqrt(squares / double(at.size())) / curve.peak;
+  return difference;
+}
+
 } // namespace
+
+const CalibratedCurve* Evaluation::curve(const std::string& name) const {
+  const auto found =
+      std::find_if(curves.begin(), curves.end(), [&](const auto& one) { return one.name == name; });
+  return found == curves.end() ? nullptr : &*found;
+}
+
+std::optional<double> Evaluation::left_out_misfit() const {
+  double squares = 0.0, count = 0.0;
+  for (const CalibratedCurve& one : curves) {
+    if (one.fitted) continue;
+    squares += one.rms_share * one.rms_share;
+    count += 1.0;
+  }
+  return count > 0.0 ? std::optional(std::sqrt(squares / count)) : std::nullopt;
+}
 
 std::string failure_of_run(const fs::path& folder) {
   if (ended_with(folder) == Exit::done) return "";
@@ -102,19 +133,11 @@ void weigh(Evaluation& evaluation, const std::vector<double>& weights) {
   for (const double weight : weights) all += weight;
   std::vector<double> residual;
   for (std::size_t c = 0; c < evaluation.curves.size(); ++c) {
-    CalibratedCurve& curve = evaluation.curves[c];
-    const evaluate::ComparedCurve& measured = curve.measured;
-    const std::vector<double> at = places_of_residuals(measured.x);
-    const std::vector<double> there = evaluate::interpolated(measured.x, measured.y, at),
-                              here = evaluate::interpolated(curve.computed.x, curve.computed.y, at);
-    const double n = double(at.size()), factor = std::sqrt(weights[c] / (all * n)) / curve.peak;
-    double squares = 0.0;
-    for (std::size_t k = 0; k < at.size(); ++k) {
-      residual.push_back(factor * (here[k] - there[k]));
-      squares += (here[k] - there[k]) * (here[k] - there[k]);
-    }
-    curve.rms_share = std::sqrt(squares / n) / curve.peak;
-    evaluation.lengths.push_back(at.size());
+    const std::vector<double> difference = compare(evaluation.curves[c]);
+    const double factor =
+        std::sqrt(weights[c] / (all * double(difference.size()))) / evaluation.curves[c].peak;
+    for (const double one : difference) residual.push_back(factor * one);
+    evaluation.lengths.push_back(difference.size());
   }
   evaluation.residual =
       Eigen::Map<const Eigen::VectorXd>(residual.data(), static_cast<Eigen::Index>(residual.size()));
@@ -185,16 +208,20 @@ std::string Evaluator::collect_point(const CalibrationTarget& target, std::size_
   return "";
 }
 
+std::string Evaluator::collect(std::size_t index, const Eigen::VectorXd& place,
+                               Evaluation& evaluation) const {
+  const CalibrationTarget& target = calibration_.targets[index];
+  return target.point ? collect_point(target, index, place, evaluation)
+         : target.cut ? collect_cut(target, index, place, evaluation)
+                      : collect_run(target, index, place, evaluation);
+}
+
 Evaluation Evaluator::collected(const Eigen::VectorXd& place) const {
   Evaluation evaluation;
   evaluation.place = place;
   try {
-    for (std::size_t t = 0; t < calibration_.targets.size() && evaluation.good(); ++t) {
-      const CalibrationTarget& target = calibration_.targets[t];
-      evaluation.failure = target.point ? collect_point(target, t, place, evaluation)
-                           : target.cut ? collect_cut(target, t, place, evaluation)
-                                        : collect_run(target, t, place, evaluation);
-    }
+    for (std::size_t t = 0; t < calibration_.targets.size() && evaluation.good(); ++t)
+      if (calibration_.targets[t].fitted()) evaluation.failure = collect(t, place, evaluation);
   } catch (const InputError& error) { evaluation.failure = error.what(); }
   if (!evaluation.good()) {
     evaluation.curves.clear();
@@ -209,12 +236,12 @@ Evaluation Evaluator::collected(const Eigen::VectorXd& place) const {
   return evaluation;
 }
 
-bool Evaluator::evaluate(const std::vector<Eigen::VectorXd>& places) {
+bool Evaluator::run(const std::vector<Eigen::VectorXd>& places, bool fitted) {
   std::vector<Job> jobs;
   std::vector<fs::path> folders;
   for (const Eigen::VectorXd& place : places)
     for (const CalibrationTarget& target : calibration_.targets) {
-      if (!target.runs()) continue;
+      if (!target.runs() || target.fitted() != fitted) continue;
       try {
         const fs::path folder = folder_of(target, place);
         if (ended_with(folder) || !ended_.insert(folder).second) continue;
@@ -232,7 +259,7 @@ bool Evaluator::evaluate(const std::vector<Eigen::VectorXd>& places) {
       options_.processes > 0 ? options_.processes : calibration_.processes, calibration_.threads);
   using Clock = std::chrono::steady_clock;
   std::vector<Clock::time_point> began(jobs.size());
-  const bool complete = run_jobs(
+  return run_jobs(
       jobs, processes, [&](std::size_t job) { began[job] = Clock::now(); },
       [&](std::size_t job, JobEnd end) {
         check_end(folders[job], jobs[job].log, end);
@@ -242,9 +269,34 @@ bool Evaluator::evaluate(const std::vector<Eigen::VectorXd>& places) {
                    results::duration_format(seconds));
         std::fflush(stdout);
       });
-  if (!complete) return false;
+}
+
+bool Evaluator::evaluate(const std::vector<Eigen::VectorXd>& places) {
+  if (!run(places, true)) return false;
   for (const Eigen::VectorXd& place : places)
     if (!known(place)) evaluations_.emplace(place_key(place), collected(place));
+  return true;
+}
+
+bool Evaluator::compare_left_out(const std::vector<Eigen::VectorXd>& places) {
+  if (!run(places, false)) return false;
+  for (const Eigen::VectorXd& place : places) {
+    Evaluation& evaluation = evaluations_.at(place_key(place));
+    const std::size_t before = evaluation.curves.size();
+    if (!evaluation.good() || (before > 0 && !evaluation.curves.back().fitted)) continue;
+    for (std::size_t t = 0; t < calibration_.targets.size(); ++t) {
+      if (calibration_.targets[t].fitted()) continue;
+      std::string failure;
+      try {
+        failure = collect(t, place, evaluation);
+      } catch (const InputError& error) { failure = error.what(); }
+      if (!failure.empty()) evaluation.left_out_failures.push_back(failure);
+    }
+    for (std::size_t c = before; c < evaluation.curves.size(); ++c) {
+      evaluation.curves[c].fitted = false;
+      compare(evaluation.curves[c]);
+    }
+  }
   return true;
 }
 

@@ -23,6 +23,9 @@ public:
   /// Evaluates all places, their runs in parallel. Returns false after SIGINT, SIGTERM or SIGHUP. Throws
   /// IoError.
   bool evaluate(const std::vector<Eigen::VectorXd>& places);
+  /// Puts the curves of targets that are left out of the search behind the others, at places that are
+  /// evaluated. Returns as evaluate() does.
+  bool compare_left_out(const std::vector<Eigen::VectorXd>& places);
 
   std::size_t count() const { return evaluations_.size(); }
   std::size_t failures() const;
@@ -30,6 +33,9 @@ public:
   std::filesystem::path folder_of(const CalibrationTarget& target, const Eigen::VectorXd& place) const;
 
 private:
+  /// Runs of targets that are fitted, or of those that are left out. Returns as evaluate() does.
+  bool run(const std::vector<Eigen::VectorXd>& places, bool fitted);
+  std::string collect(std::size_t index, const Eigen::VectorXd& place, Evaluation& evaluation) const;
   std::string collect_run(const CalibrationTarget& target, std::size_t index, const Eigen::VectorXd& place,
                           Evaluation& evaluation) const;
   std::string collect_point(const CalibrationTarget& target, std::size_t index, const Eigen::VectorXd& place,

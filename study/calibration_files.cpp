@@ -99,12 +99,20 @@ Json json_of(const Calibration& calibration, const CalibrationResult& result,
             : Json(nullptr);
   }
   Json& curves = json["curves"] = Json::array();
-  for (std::size_t k = 0; k < result.best.curves.size(); ++k)
-    curves.push_back(
-        {{"name", result.best.curves[k].name},
-         {"rms_share_start",
-          result.start.good() ? results::json_number(result.start.curves[k].rms_share) : Json(nullptr)},
-         {"rms_share", results::json_number(result.best.curves[k].rms_share)}});
+  for (const CalibratedCurve& curve : result.best.curves) {
+    const CalibratedCurve* before = result.start.curve(curve.name);
+    Json& one = curves.emplace_back();
+    one = {{"name", curve.name},
+           {"fitted", curve.fitted},
+           {"rms_share_start", before ? results::json_number(before->rms_share) : Json(nullptr)},
+           {"rms_share", results::json_number(curve.rms_share)}};
+    if (!curve.single_number()) continue;
+    one["unit"] = curve.y_unit;
+    one["measured"] = curve.measured.y.front();
+    one["standard_error"] = curve.relative_error * curve.peak;
+    one["start"] = before ? results::json_number(before->computed.y.front()) : Json(nullptr);
+    one["computed"] = results::json_number(curve.computed.y.front());
+  }
   json["singular_values"] = list_of(inference.singular);
   json["logarithmic_singular_values"] = list_of(result.logarithmic);
   json["directions"] = rows_of(inference.directions.transpose());

@@ -49,6 +49,7 @@ public:
                    [&](const input::Member& member) { read_constant(member); });
     for_each_table("targets", "[targets.NAME]", [&](const input::Member& member) { read_target(member); });
     check_keys();
+    check_weights();
     diagnostics_.throw_if_any();
     check_budget();
     read_cases();
@@ -168,7 +169,7 @@ private:
         target.set.push_back(std::move(change));
     if (const auto weight = number(reader, table, path, "weight", input::Dimension{}))
       target.weight = weight->si;
-    if (!(target.weight > 0.0)) reader.wrong("weight", table.find("weight")->value, "a number above 0");
+    if (!(target.weight >= 0.0)) reader.wrong("weight", table.find("weight")->value, "0 or more");
     target.cut = read_cut(reader, table, path, closed_form_, diagnostics_);
     if (table.find("file") && target.cut)
       diagnostics_.add(Mistake::conflict, table.find("file")->where, path + "file",
@@ -267,6 +268,14 @@ private:
       }
   }
 
+  void check_weights() {
+    const auto& targets = result_.targets;
+    if (!targets.empty() &&
+        std::none_of(targets.begin(), targets.end(), [](const auto& target) { return target.weight != 0.0; }))
+      diagnostics_.add(Mistake::conflict, root_.find("targets")->where, "targets",
+                       "found all of them with weight = 0, expected one at least that is fitted");
+  }
+
   void check_budget() {
     const auto least = static_cast<int>(2 * std::max<std::size_t>(2, result_.constants.size()) + 2);
     if (result_.evaluations / result_.starts < least)
@@ -318,9 +327,11 @@ private:
     }
     if (!target.point) {
       if (input.report.experiments.empty())
-        throw InputError(fmt::format("{}: key 'targets.{}': the case {} has no [report.experiment], expected "
-                                     "a measured curve in it, or `file` for the curve of a single point",
-                                     target.where.text(), target.name, target.case_file.string()));
+        throw InputError(
+            fmt::format("{}: key 'targets.{}': the case {} has no [report.experiment], expected "
+                        "a measured curve in it, `file` for the curve of a single point, or `Fc`, `Ft` or "
+                        "`chip_thickness` of a cut",
+                        target.where.text(), target.name, target.case_file.string()));
       return;
     }
     if (target.point->material.empty()) target.point->material = input.domain.material;

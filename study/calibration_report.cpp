@@ -58,12 +58,17 @@ std::string words_section(const char* id, const char* heading, const std::vector
 
 std::string curves_section(const CalibrationResult& result) {
   std::string rows = row({"curve", "before", "after"}, "th");
-  const bool begun = result.start.good();
-  for (std::size_t k = 0; k < result.best.curves.size(); ++k)
-    rows += row({result.best.curves[k].name, begun ? percent(result.start.curves[k].rms_share) : "failed",
-                 percent(result.best.curves[k].rms_share)});
-  rows += row({"all, by weight", begun ? percent(std::sqrt(result.start.misfit)) : "failed",
+  for (const CalibratedCurve& curve : result.best.curves) {
+    const CalibratedCurve* before = result.start.curve(curve.name);
+    rows += row({curve.name + (curve.fitted ? "" : " (left out)"),
+                 before ? percent(before->rms_share) : "failed", percent(curve.rms_share)});
+  }
+  rows += row({"all, by weight", result.start.good() ? percent(std::sqrt(result.start.misfit)) : "failed",
                percent(std::sqrt(result.best.misfit))});
+  if (const auto misfit = result.best.left_out_misfit()) {
+    const auto before = result.start.left_out_misfit();
+    rows += row({"all that are left out", before ? percent(*before) : "failed", percent(*misfit)});
+  }
   std::string note =
       "Root mean square of computed − measured over the measured curve, as a share of its peak.";
   for (const CalibratedCurve& curve : result.best.curves)
@@ -73,19 +78,21 @@ std::string curves_section(const CalibrationResult& result) {
 
 std::string cuts_section(const CalibrationResult& result) {
   std::string rows;
-  for (std::size_t k = 0; k < result.best.curves.size(); ++k) {
-    const CalibratedCurve& curve = result.best.curves[k];
-    if (curve.measured.x.size() > 1) continue;
+  for (const CalibratedCurve& curve : result.best.curves) {
+    if (!curve.single_number()) continue;
+    const CalibratedCurve* before = result.start.curve(curve.name);
+    const double measured = curve.measured.y.front();
     const auto shown = [&](const CalibratedCurve& one) {
       return results::si_format(one.computed.y.front(), curve.y_unit);
     };
-    rows += row({curve.name, results::si_format(curve.measured.y.front(), curve.y_unit),
-                 percent(curve.relative_error),
-                 result.start.good() ? shown(result.start.curves[k]) : "failed", shown(curve)});
+    rows += row({curve.name + (curve.fitted ? "" : " (left out)"), results::si_format(measured, curve.y_unit),
+                 percent(curve.relative_error), before ? shown(*before) : "failed", shown(curve),
+                 fmt::format("{:+.1f} %", 100.0 * (curve.computed.y.front() - measured) / curve.peak)});
   }
   if (rows.empty()) return "";
   return table_section("cuts", "Cuts",
-                       row({"number", "measured", "standard error", "before", "after"}, "th") + rows);
+                       row({"number", "measured", "standard error", "before", "after", "difference"}, "th") +
+                           rows);
 }
 
 std::string searches_section(const CalibrationResult& result) {
@@ -163,18 +170,18 @@ report::ChartSeries series(std::string label, const evaluate::ComparedCurve& cur
 
 std::vector<report::Chart> curve_charts(const CalibrationResult& result) {
   std::vector<report::Chart> charts;
-  for (std::size_t k = 0; k < result.best.curves.size(); ++k) {
-    const CalibratedCurve& curve = result.best.curves[k];
-    if (curve.measured.x.size() < 2) continue; // a number of a cut: it stands in a table
+  for (const CalibratedCurve& curve : result.best.curves) {
+    if (curve.single_number()) continue; // it stands in a table
     report::Chart chart;
-    chart.title = curve.name;
+    chart.title = curve.name + (curve.fitted ? "" : " (left out)");
     chart.x_label = curve.of_point ? "strain" : curve.over_stroke ? "stroke" : "time";
     chart.x_unit = curve.x_unit;
     chart.y_label = curve.of_point ? "stress" : "force";
     chart.y_unit = curve.y_unit;
     chart.series.push_back(series("measured", curve.measured, 1, true));
     chart.series.push_back(series("after", curve.computed, 0));
-    if (result.start.good()) chart.series.push_back(series("before", result.start.curves[k].computed, 7));
+    if (const CalibratedCurve* before = result.start.curve(curve.name))
+      chart.series.push_back(series("before", before->computed, 7));
     charts.push_back(std::move(chart));
   }
   return charts;

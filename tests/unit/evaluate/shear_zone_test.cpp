@@ -7,6 +7,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
+#include <vector>
 
 namespace cnem::evaluate {
 namespace {
@@ -91,6 +92,36 @@ TEST(ShearZone, FrictionMakesChipsThickerAndHeatForcesSmaller) {
   EXPECT_GT(of(0.6, 3.0).chip_thickness, of(0.3, 3.0).chip_thickness);
   EXPECT_GT(of(0.6, 3.0).Fc, of(0.3, 3.0).Fc);
   EXPECT_LT(of(0.5, 5.0).Fc, of(0.5, 1.0).Fc);
+}
+
+/// At very small angles this metal hardens by more than its plane can bear, as n = 0.448 is approached:
+/// Oxley's equation has a second root there, beside that of the chip.
+TEST(ShearZone, HardeningThatMakesASecondRootKeepsTheChip) {
+  plasticity::Material aluminium;
+  aluminium.density = 2770.0;
+  aluminium.specific_heat = 875.0;
+  aluminium.conductivity = 120.0;
+  plasticity::JohnsonCook law;
+  law.A = 411e6;
+  law.B = 339.5e6;
+  law.n = 0.448;
+  law.C = 0.0058;
+  law.m = 1.5;
+  law.rate0 = 1.0;
+  law.T0 = 293.0;
+  law.Tmelt = 775.0;
+  aluminium.hardening = plasticity::Hardening(law);
+  std::vector<double> angles;
+  for (const double friction : {0.53, 0.54, 0.55, 0.56, 0.57}) {
+    const auto zone = shear_zone(
+        aluminium, {.feed = 0.1e-3, .speed = 1.0, .rake = 0.0, .friction = friction, .temperature = 293.0});
+    ASSERT_TRUE(zone) << friction;
+    angles.push_back(zone->shear_angle / one_degree);
+  }
+  for (std::size_t k = 1; k < angles.size(); ++k) {
+    EXPECT_LT(angles[k], angles[k - 1]);
+    EXPECT_NEAR(angles[k - 1] - angles[k], angles[0] - angles[1], 0.1) << "no jump to the other root";
+  }
 }
 
 } // namespace
