@@ -116,22 +116,36 @@ void BodyContact<dim>::set_boundary(const Surface<dim>& surface,
   group_.assign(surface.node.size(), -1);
   if (!group.empty())
     for (const BoundaryNodeIndex b : group_.indices()) group_[b] = group[surface.node[b]];
+  side_.clear();
+  if (!repetition_.empty())
+    for (const PieceIndex piece : surface.piece)
+      side_.push_back(std::ranges::find(repetition_.sides, piece) != repetition_.sides.end());
   bonds_ = {};
   listed_.clear();
 }
 
 template<int dim> bool BodyContact<dim>::tied(const Surface<dim>& surface, FacetIndex facet) const {
   if (!exists(facet)) return true;
+  if (!side_.empty()) return side_[facet] != 0;
   const auto& ends = surface.facets[facet];
   return std::all_of(ends.begin(), ends.end(), [&](BoundaryNodeIndex b) { return group_[b] >= 0; });
 }
 
+/// Whether two nodes, the other shifted, are one point of the body.
 template<int dim>
-bool BodyContact<dim>::related(const Surface<dim>& surface, BoundaryNodeIndex node, FacetIndex facet) const {
+bool BodyContact<dim>::same(BoundaryNodeIndex one, BoundaryNodeIndex other, const Vec<dim>& shift) const {
+  if (repetition_.empty()) return other == one || (group_[one] >= 0 && group_[other] == group_[one]);
+  if (other == one) return shift.isZero(0.0);
+  if (group_[one] < 0 || group_[other] != group_[one]) return false;
+  return (listed_[other] + shift - listed_[one]).norm() < 0.5 * skin_; // periods are longer
+}
+
+template<int dim>
+bool BodyContact<dim>::related(const Surface<dim>& surface, BoundaryNodeIndex node, FacetIndex facet,
+                               const Vec<dim>& shift) const {
   if (bonds_.joins(surface.node[node], as<CloudFacetIndex>(index_of(facet)))) return true;
-  return std::any_of(surface.facets[facet].begin(), surface.facets[facet].end(), [&](BoundaryNodeIndex end) {
-    return end == node || (group_[node] >= 0 && group_[end] == group_[node]);
-  });
+  return std::any_of(surface.facets[facet].begin(), surface.facets[facet].end(),
+                     [&](BoundaryNodeIndex end) { return same(node, end, shift); });
 }
 
 template<> void BodyContact<2>::list(const Surface<2>& surface) {
@@ -159,7 +173,7 @@ template<> void BodyContact<2>::list(const Surface<2>& surface) {
                std::back_inserter(near));
     std::sort(near.begin(), near.end(), [](const auto& p, const auto& q) { return p.second < q.second; });
     for (const auto& [box, f] : near) {
-      if (related(surface, b, f)) continue;
+      if (related(surface, b, f, Vec2::Zero())) continue;
       const FacetView facet(surface, f, listed_);
       const Vec2 foot = facet.nearest(listed_[b]);
       const double reach = skin_ + (were_bonded(bonds_, surface, b, f) ? pressed : 0.0);
@@ -170,7 +184,7 @@ template<> void BodyContact<2>::list(const Surface<2>& surface) {
         const bool round_a_corner = bodies == 0 && (place < 0.0 || place > 1.0);
         if (bodies < 2 && !round_a_corner) continue;
       }
-      pairs_.push_back({b, f});
+      pairs_.push_back({b, f, Vec2::Zero()});
     }
   }
 }

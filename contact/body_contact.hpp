@@ -1,11 +1,14 @@
 #pragma once
 // Where the boundary of the workpiece touches itself or another body of the cloud: nodes against facets.
 #include "contact/bonds.hpp"
+#include "contact/images.hpp"
 #include "contact/surface.hpp"
 #include "contact/tool.hpp"
 #include "core/fields/archive.hpp"
+#include "core/geometry/box_tree.hpp"
 
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace cnem::contact {
@@ -25,11 +28,13 @@ template<int dim> struct FacetHit {
   Vec<dim> normal = Vec<dim>::Zero(); ///< out of the facet's body
   double start = 0.0;     ///< m, gap less clearance at the start of the step where that was < 0, else 0
   double clearance = 0.0; ///< m, gap that is kept so that boundaries that touch never cross by rounding
+  Vec<dim> shift = Vec<dim>::Zero(); ///< m, of the facet: what is hit is this image of it
 };
 
 /// Two edges of a surface in space.
 struct EdgePair {
   SurfaceEdgeIndex one{}, other{};
+  Vec3 shift{0, 0, 0};   ///< m, of the other: this image of it
   bool overlaps = false; ///< they were within each other's bodies when they were listed
 };
 
@@ -46,8 +51,15 @@ struct EdgeHit {
 /// at them, nor, seen through the body, with facets of its far side: of pairs whose node lies behind the
 /// facet only those stay between whose ends two bodies overlap (winding number 2), or nothing is (0) where
 /// the node may yet come round a corner onto the facet.
+///
+/// In space a boundary may go on at its images. Then nodes and edges meet those too, by as many periods as
+/// the boundary has come beside itself; of two images of a pair, a period apart, each pushes the nodes that
+/// are its own.
 template<int dim> class BodyContact {
 public:
+  /// Of all boundaries to come.
+  void repeat(Repetition<dim> repetition) requires(dim == 3) { repetition_ = std::move(repetition); }
+
   /// Takes a boundary. group, ≥ 0: nodes that are tied have the same number; facets
   /// between tied nodes are no surface. Empty: none is tied.
   void set_boundary(const Surface<dim>& surface, IndexedSpan<NodeIndex, const std::int32_t> group);
@@ -83,15 +95,22 @@ private:
   struct Pair {
     BoundaryNodeIndex node;
     FacetIndex facet;
+    Vec<dim> shift; ///< m, of the facet
   };
   void list(const Surface<dim>& surface);
-  bool related(const Surface<dim>& surface, BoundaryNodeIndex node, FacetIndex facet) const;
+  void list_edges(const Surface<dim>& surface, const BoxTree& facets,
+                  std::span<const Vec3> shifts); // in space
+  bool same(BoundaryNodeIndex one, BoundaryNodeIndex other, const Vec<dim>& shift) const;
+  bool related(const Surface<dim>& surface, BoundaryNodeIndex node, FacetIndex facet,
+               const Vec<dim>& shift) const;
   bool tied(const Surface<dim>& surface, FacetIndex facet) const;
 
+  Repetition<dim> repetition_;
+  IndexedVector<FacetIndex, char> side_;                 ///< of a period: no surface; empty: nothing repeats
   IndexedVector<BoundaryNodeIndex, std::int32_t> group_; ///< −1: free
   Bonds bonds_;
   IndexedVector<BoundaryNodeIndex, Vec<dim>> listed_; ///< m; empty: no list yet
-  std::vector<Pair> pairs_;                           ///< by node, then facet
+  std::vector<Pair> pairs_;                           ///< by node, then image, then facet
   std::vector<EdgePair> edge_pairs_;                  ///< 3D
   double skin_ = 0.0;                                 ///< m
   double size_ = 0.0;
@@ -103,6 +122,9 @@ template<>
 void BodyContact<2>::find(const Surface<2>& surface, PlacesOnBoundary<2> start, PlacesOnBoundary<2> end,
                           std::vector<FacetHit<2>>& hits) const;
 template<> void BodyContact<3>::list(const Surface<3>& surface);
+template<>
+void BodyContact<3>::list_edges(const Surface<3>& surface, const BoxTree& facets,
+                                std::span<const Vec3> shifts);
 template<>
 void BodyContact<3>::find(const Surface<3>& surface, PlacesOnBoundary<3> start, PlacesOnBoundary<3> end,
                           std::vector<FacetHit<3>>& hits) const;

@@ -10,6 +10,8 @@
 #include <limits>
 #include <optional>
 #include <ranges>
+#include <span>
+#include <vector>
 
 namespace cnem::contact {
 namespace {
@@ -64,10 +66,15 @@ std::array<double, 3> clamped(std::array<double, 3> w) {
   return w;
 }
 
-bool faces(const Surface<3>& surface, BoundaryNodeIndex node, const Vec3& normal,
+/// [facet] whether matter goes on behind it, at a period; empty: behind none.
+using Sides = IndexedVector<FacetIndex, char>;
+
+bool is_side(const Sides& sides, FacetIndex facet) { return !sides.empty() && sides[facet] != 0; }
+
+bool faces(const Surface<3>& surface, const Sides& sides, BoundaryNodeIndex node, const Vec3& normal,
            PlacesOnBoundary<3> position) {
   return std::any_of(surface.around[node].begin(), surface.around[node].end(), [&](FacetIndex f) {
-    return FacetView(surface, f, position).normal.dot(normal) < facing;
+    return !is_side(sides, f) && FacetView(surface, f, position).normal.dot(normal) < facing;
   });
 }
 
@@ -99,6 +106,23 @@ int winding_number(const Surface<3>& surface, PlacesOnBoundary<3> position, cons
   return count;
 }
 
+/// How many bodies, and images of them, are at x.
+int bodies_at(const Surface<3>& surface, PlacesOnBoundary<3> position, const BoxTree& facets,
+              std::span<const Vec3> shifts, const Vec3& x) {
+  int bodies = 0;
+  for (const Vec3& shift : shifts) bodies += winding_number(surface, position, facets, x - shift);
+  return bodies;
+}
+
+/// Of things that are shifted those in a box, in increasing order.
+void find_near(const BoxTree& things, Box<3> box, const Vec3& shift, std::vector<std::int32_t>& near) {
+  near.clear();
+  box.low -= shift;
+  box.high -= shift;
+  things.overlapping(box, [&](std::int32_t i) { near.push_back(i); });
+  std::sort(near.begin(), near.end());
+}
+
 Box<3> box_of(PlacesOnBoundary<3> position, std::span<const BoundaryNodeIndex> nodes, double margin) {
   Box<3> box = cnem::box_of<3>(
       nodes | std::views::transform([&](BoundaryNodeIndex b) -> const Vec3& { return position[b]; }));
@@ -114,17 +138,19 @@ struct Candidate {
 };
 
 /// Of two facets that meet at a convex edge or corner of their body, a node came in through the one it passed
-/// last.
-void keep_last_passed(const Surface<3>& surface, PlacesOnBoundary<3> position,
+/// last. same(node, other, shift of the other): whether they are one point.
+template<class Same>
+void keep_last_passed(const Surface<3>& surface, PlacesOnBoundary<3> position, Same&& same,
                       std::vector<Candidate>& of_node) {
   const auto beaten = [&](const Candidate& c) {
     return std::any_of(of_node.begin(), of_node.end(), [&](const Candidate& other) {
       const auto &f = surface.facets[c.hit.facet], &g = surface.facets[other.hit.facet];
-      if (c.hit.facet == other.hit.facet ||
-          std::find_first_of(f.begin(), f.end(), g.begin(), g.end()) == f.end())
+      const Vec3 shift = other.hit.shift - c.hit.shift;
+      const auto shared = [&](BoundaryNodeIndex p, BoundaryNodeIndex q) { return same(p, q, shift); };
+      if (&c == &other || std::find_first_of(f.begin(), f.end(), g.begin(), g.end(), shared) == f.end())
         return false;
       const FacetView mine(surface, c.hit.facet, position), theirs(surface, other.hit.facet, position);
-      if (mine.gap(theirs.middle()) >= -rounding * mine.size) return false; // flat or hollow
+      if (mine.gap(theirs.middle() + shift) >= -rounding * mine.size) return false; // flat or hollow
       return other.when > c.when || (other.when == c.when && other.hit.facet < c.hit.facet);
     });
   };
@@ -143,17 +169,19 @@ struct Crossing {
   bool between(double over) const { return s >= -over && s <= 1.0 + over && t >= -over && t <= 1.0 + over; }
 };
 
-Vec3 outwards(const Surface<3>& surface, const SurfaceEdge& edge, PlacesOnBoundary<3> position) {
+Vec3 outwards(const Surface<3>& surface, const Sides& sides, const SurfaceEdge& edge,
+              PlacesOnBoundary<3> position) {
   Vec3 sum = Vec3::Zero();
   for (const FacetIndex f : edge.facet)
-    if (exists(f)) sum += FacetView(surface, f, position).normal;
+    if (exists(f) && !is_side(sides, f)) sum += FacetView(surface, f, position).normal;
   return sum;
 }
 
-/// m, of the nearest points of two edges (Ericson 2005, 5.1.9).
-double distance_of_edges(const SurfaceEdge& one, const SurfaceEdge& other, PlacesOnBoundary<3> position) {
+/// m, of the nearest points of two edges, the other shifted (Ericson 2005, 5.1.9).
+double distance_of_edges(const SurfaceEdge& one, const SurfaceEdge& other, const Vec3& shift,
+                         PlacesOnBoundary<3> position) {
   const Vec3 x = position[one.node[0]], e = position[one.node[1]] - x;
-  const Vec3 y = position[other.node[0]], f = position[other.node[1]] - y, r = x - y;
+  const Vec3 y = position[other.node[0]], f = position[other.node[1]] - y, r = x - y - shift;
   const double ee = e.squaredNorm(), ff = f.squaredNorm(), ef = e.dot(f), er = e.dot(r), fr = f.dot(r);
   const double det = ee * ff - ef * ef;
   double s = det > 0.0 ? std::clamp((ef * fr - er * ff) / det, 0.0, 1.0) : 0.0, t = (ef * s + fr) / ff;
@@ -164,24 +192,26 @@ double distance_of_edges(const SurfaceEdge& one, const SurfaceEdge& other, Place
   return (r + s * e - t * f).norm();
 }
 
-std::optional<Crossing> crossing(const Surface<3>& surface, const SurfaceEdge& one, const SurfaceEdge& other,
+std::optional<Crossing> crossing(const Surface<3>& surface, const Sides& sides, const EdgePair& pair,
                                  PlacesOnBoundary<3> position) {
+  const SurfaceEdge &one = surface.edges[pair.one], &other = surface.edges[pair.other];
   const Vec3 x = position[one.node[0]], e = position[one.node[1]] - x;
   const Vec3 y = position[other.node[0]], f = position[other.node[1]] - y;
   const double ee = e.squaredNorm(), ff = f.squaredNorm(), ef = e.dot(f), det = ee * ff - ef * ef;
   if (det < least_crossing * least_crossing * ee * ff) return {};
-  const Vec3 r = y - x;
+  const Vec3 r = y + pair.shift - x;
   Crossing at;
   at.s = (e.dot(r) * ff - f.dot(r) * ef) / det;
   at.t = (e.dot(r) * ef - f.dot(r) * ee) / det;
   if (!at.between(0.1)) return {};
   at.length = std::sqrt(std::min(ee, ff));
   at.normal = e.cross(f).normalized();
-  const Vec3 out_one = outwards(surface, one, position), out_other = outwards(surface, other, position);
+  const Vec3 out_one = outwards(surface, sides, one, position),
+             out_other = outwards(surface, sides, other, position);
   if (at.normal.dot(out_other - out_one) < 0.0) at.normal = -at.normal;
   if (at.normal.dot(out_other) < 0.25 * out_other.norm() || at.normal.dot(out_one) > -0.25 * out_one.norm())
     return {}; // they do not face each other
-  at.gap = at.normal.dot(x + at.s * e - y - at.t * f);
+  at.gap = at.normal.dot(x + at.s * e - y - pair.shift - at.t * f);
   return at;
 }
 
@@ -200,63 +230,74 @@ template<> void BodyContact<3>::list(const Surface<3>& surface) {
   std::vector<Box<3>> boxes;
   for (const auto& nodes : surface.facets) boxes.push_back(box_of(listed_, nodes, 0.0));
   const BoxTree facets(std::move(boxes));
+  const std::vector<Vec3> shifts = images(repetition_.period, high - low, 2.0 * skin_);
   std::vector<std::int32_t> near;
-  const auto find_near = [&](const BoxTree& tree, const Box<3>& box) {
-    near.clear();
-    tree.overlapping(box, [&](std::int32_t i) { near.push_back(i); });
-    std::sort(near.begin(), near.end());
-  };
   // what lies behind a facet does so in another body, or may come round a corner
   const auto may_meet = [&](double gap, double size, const Vec3& middle, bool beside) {
     if (gap >= -rounding * size) return true;
-    const int bodies = winding_number(surface, listed_, facets, middle);
+    const int bodies = bodies_at(surface, listed_, facets, shifts, middle);
     return bodies > 1 || (bodies < 1 && beside);
   };
   for (const BoundaryNodeIndex b : listed_.indices()) {
     const auto& around = surface.around[b];
     if (std::all_of(around.begin(), around.end(), [&](FacetIndex f) { return tied(surface, f); })) continue;
-    find_near(facets, box_of(listed_, std::array{b}, skin_));
-    for (const std::int32_t i : near) {
-      const auto f = as<FacetIndex>(i);
-      if (tied(surface, f) || related(surface, b, f)) continue;
-      const FacetView facet(surface, f, listed_);
-      const Vec3 foot = facet.nearest(listed_[b]);
-      if ((foot - listed_[b]).norm() > skin_) continue;
-      constexpr double inwards = 1e-6; // off planes of symmetry, which bound the bodies
-      const Vec3 middle = 0.5 * (foot + listed_[b]) + inwards * (facet.middle() - foot);
-      if (may_meet(facet.gap(listed_[b]), facet.size, middle, !inside(facet.weights(listed_[b]), 0.0)))
-        pairs_.push_back({b, f});
+    const Box<3> box = box_of(listed_, std::array{b}, skin_);
+    for (const Vec3& shift : shifts) {
+      find_near(facets, box, shift, near);
+      const Vec3 x = listed_[b] - shift;
+      for (const std::int32_t i : near) {
+        const auto f = as<FacetIndex>(i);
+        if (tied(surface, f) || related(surface, b, f, shift)) continue;
+        const FacetView facet(surface, f, listed_);
+        const Vec3 foot = facet.nearest(x);
+        if ((foot - x).norm() > skin_) continue;
+        constexpr double inwards = 1e-6; // off planes of symmetry, which bound the bodies
+        const Vec3 middle = 0.5 * (foot + x) + inwards * (facet.middle() - foot);
+        if (may_meet(facet.gap(x), facet.size, middle, !inside(facet.weights(x), 0.0)))
+          pairs_.push_back({b, f, shift});
+      }
     }
   }
-  boxes.clear();
+  list_edges(surface, facets, shifts);
+}
+
+template<>
+void BodyContact<3>::list_edges(const Surface<3>& surface, const BoxTree& facets,
+                                std::span<const Vec3> shifts) {
+  std::vector<Box<3>> boxes;
   for (const SurfaceEdge& edge : surface.edges)
     boxes.push_back(box_of(listed_, std::span(edge.node).first(2), 0.0));
   const BoxTree edges(std::move(boxes));
   const auto edge_tied = [&](const SurfaceEdge& edge) {
     return tied(surface, edge.facet[0]) && tied(surface, edge.facet[1]);
   };
+  std::vector<std::int32_t> near;
   for (const SurfaceEdgeIndex e : surface.edges.indices()) {
     const SurfaceEdge& one = surface.edges[e];
     if (edge_tied(one)) continue;
-    find_near(edges, box_of(listed_, std::span(one.node).first(2), skin_));
-    for (const std::int32_t i : near) {
-      const auto o = as<SurfaceEdgeIndex>(i);
-      if (o <= e || edge_tied(surface.edges[o])) continue;
-      const SurfaceEdge& other = surface.edges[o];
-      const auto same = [&](BoundaryNodeIndex p, BoundaryNodeIndex q) {
-        return p == q || (group_[p] >= 0 && group_[p] == group_[q]);
-      };
-      if (same(one.node[0], other.node[0]) || same(one.node[0], other.node[1]) ||
-          same(one.node[1], other.node[0]) || same(one.node[1], other.node[1]))
-        continue;
-      if (distance_of_edges(one, other, listed_) > skin_) continue;
-      const auto at = crossing(surface, one, other, listed_);
-      const bool behind = at && at->gap < -rounding * at->length;
-      if (behind) { // edges of two facets that see each other from behind
-        const Vec3 x = (1.0 - at->s) * listed_[one.node[0]] + at->s * listed_[one.node[1]];
-        if (winding_number(surface, listed_, facets, x - 0.5 * at->gap * at->normal) < 2) continue;
+    const Box<3> box = box_of(listed_, std::span(one.node).first(2), skin_);
+    // by the first shift, none, each pair is met twice; of the others the second of two opposite ones is
+    for (std::size_t image = 0; image < shifts.size(); image += image == 0 ? 1 : 2) {
+      const Vec3& shift = shifts[image];
+      find_near(edges, box, shift, near);
+      for (const std::int32_t i : near) {
+        const auto o = as<SurfaceEdgeIndex>(i);
+        if ((image == 0 && o <= e) || edge_tied(surface.edges[o])) continue;
+        const SurfaceEdge& other = surface.edges[o];
+        const auto meet = [&](std::size_t p, std::size_t q) {
+          return same(one.node[p], other.node[q], shift);
+        };
+        if (meet(0, 0) || meet(0, 1) || meet(1, 0) || meet(1, 1)) continue;
+        if (distance_of_edges(one, other, shift, listed_) > skin_) continue;
+        EdgePair pair{e, o, shift};
+        const auto at = crossing(surface, side_, pair, listed_);
+        pair.overlaps = at && at->gap < -rounding * at->length;
+        if (pair.overlaps) { // or edges of two facets that see each other from behind
+          const Vec3 x = (1.0 - at->s) * listed_[one.node[0]] + at->s * listed_[one.node[1]];
+          if (bodies_at(surface, listed_, facets, shifts, x - 0.5 * at->gap * at->normal) < 2) continue;
+        }
+        edge_pairs_.push_back(pair);
       }
-      edge_pairs_.push_back({e, o, behind});
     }
   }
 }
@@ -271,27 +312,31 @@ void BodyContact<3>::find(const Surface<3>& surface, PlacesOnBoundary<3> start, 
     FacetHit<3> within;
     double depth = std::numeric_limits<double>::infinity();
     for (; first < pairs_.size() && pairs_[first].node == b; ++first) {
-      const FacetIndex f = pairs_[first].facet;
+      const auto& [node, f, shift] = pairs_[first];
+      const Vec3 from = start[b] - shift, to = end[b] - shift;
       const FacetView now(surface, f, end);
-      const double kept = clearance * now.size, gap = now.gap(end[b]) - kept;
+      const double kept = clearance * now.size, gap = now.gap(to) - kept;
       if (gap >= 0.0 || gap < -2.0 * skin_) continue;
       const FacetView before(surface, f, start);
-      const double gap_before = before.gap(start[b]) - kept;
-      const auto place = now.weights(end[b]);
-      FacetHit<3> hit{b, f, clamped(place), now.normal, std::min(gap_before, 0.0), kept};
+      const double gap_before = before.gap(from) - kept;
+      const auto place = now.weights(to);
+      FacetHit<3> hit{b, f, clamped(place), now.normal, std::min(gap_before, 0.0), kept, shift};
       if (gap_before >= -kept - rounding * before.size) {
         const double when = gap_before > 0.0 ? gap_before / (gap_before - gap) : 0.0;
-        std::array<double, 3> there = before.weights(start[b]);
+        std::array<double, 3> there = before.weights(from);
         for (std::size_t k = 0; k < 3; ++k) there[k] = (1.0 - when) * there[k] + when * place[k];
-        if (inside(there, overhang) && faces(surface, b, before.normal, start))
+        if (inside(there, overhang) && faces(surface, side_, b, before.normal, start))
           crossed.push_back({hit, when});
       } else if (inside(place, 0.0) && -gap < std::min(depth, skin_) &&
-                 faces(surface, b, before.normal, start)) {
+                 faces(surface, side_, b, before.normal, start)) {
         depth = -gap;
         within = hit;
       }
     }
-    keep_last_passed(surface, end, crossed);
+    keep_last_passed(
+        surface, end,
+        [&](BoundaryNodeIndex p, BoundaryNodeIndex q, const Vec3& shift) { return same(p, q, shift); },
+        crossed);
     for (const Candidate& c : crossed) hits.push_back(c.hit);
     if (crossed.empty() && depth < std::numeric_limits<double>::infinity()) hits.push_back(within);
   }
@@ -301,12 +346,11 @@ template<>
 void BodyContact<3>::find_edges(const Surface<3>& surface, PlacesOnBoundary<3> start, PlacesOnBoundary<3> end,
                                 std::vector<EdgeHit>& hits) const {
   for (const EdgePair& pair : edge_pairs_) {
-    const SurfaceEdge &one = surface.edges[pair.one], &other = surface.edges[pair.other];
-    const auto now = crossing(surface, one, other, end);
+    const auto now = crossing(surface, side_, pair, end);
     if (!now) continue;
     const double kept = clearance * now->length, gap = now->gap - kept;
     if (gap >= 0.0 || gap < -skin_ || !now->between(overhang)) continue;
-    const auto before = crossing(surface, one, other, start);
+    const auto before = crossing(surface, side_, pair, start);
     if (!before || before->normal.dot(now->normal) < 0.0) continue;
     if (!pair.overlaps && before->gap < -rounding * before->length) continue; // through a wall, from behind
     const double gap_before = before->gap - kept, s = std::clamp(now->s, 0.0, 1.0),

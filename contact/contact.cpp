@@ -209,7 +209,7 @@ bool RigidContact<dim>::add(Contact<dim> contact, double start, double level, co
   const auto earlier = contacts_.begin() + static_cast<std::ptrdiff_t>(from_earlier_passes_);
   const auto known = std::find_if(contacts_.begin(), earlier, [&](const Contact<dim>& c) {
     return c.tool == contact.tool && c.feature == contact.feature && c.facet == contact.facet &&
-           c.node == contact.node;
+           c.node == contact.node && c.shift == contact.shift;
   });
   if (known == earlier) {
     take(contact, step);
@@ -334,6 +334,7 @@ bool RigidContact<dim>::find_on_bodies(const Poses<dim>& poses, const ContactSte
     const auto& ends = surface_.facets[hit.facet];
     Contact<dim> contact;
     contact.facet = hit.facet;
+    contact.shift = hit.shift;
     contact.node[0] = hit.node;
     contact.weight[0] = 1.0;
     for (std::size_t a = 0; a < dim; ++a) {
@@ -349,7 +350,7 @@ bool RigidContact<dim>::find_on_bodies(const Poses<dim>& poses, const ContactSte
       for (std::size_t a = 0; a < dim; ++a) both += hit.weight[a] * step.window[ends[a]];
       return 0.5 * both * area;
     });
-    any |= add(contact, hit.start, hit.clearance, rest, step);
+    any |= add(contact, hit.start, hit.clearance + hit.normal.dot(contact.shift), rest, step);
   }
   if constexpr (dim == 3) any |= find_on_edges(rest, step);
   return any;
@@ -367,6 +368,7 @@ bool RigidContact<dim>::find_on_edges(const Pose<dim>& rest,
     Contact<3> contact;
     contact.feature = 1 + as<std::int32_t>(hit.pair.other);
     contact.facet = one.facet[0]; // with its first node it is the edge
+    contact.shift = hit.pair.shift;
     contact.node = {one.node[0], one.node[1], other.node[0], other.node[1]};
     contact.weight = {hit.weight_one[0], hit.weight_one[1], -hit.weight_other[0], -hit.weight_other[1]};
     contact.normal = hit.normal;
@@ -376,7 +378,7 @@ bool RigidContact<dim>::find_on_edges(const Pose<dim>& rest,
         area += 0.125 * std::abs(contact.weight[a]) * rubbing_area(contact.node[a], step.window);
       return area;
     });
-    any |= add(contact, hit.start, hit.clearance, rest, step);
+    any |= add(contact, hit.start, hit.clearance + hit.normal.dot(contact.shift), rest, step);
   }
   return any;
 }

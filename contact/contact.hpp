@@ -11,6 +11,7 @@
 
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace cnem::contact {
@@ -127,6 +128,9 @@ public:
   void set_boundary(const std::vector<Facet<dim>>& facets, std::size_t nodes,
                     const std::vector<NodeConstraint<dim>>& constraints,
                     IndexedSpan<NodeIndex, const std::int32_t> group = {});
+
+  /// What of all boundaries to come repeats.
+  void repeat(Repetition<dim> repetition) requires(dim == 3) { bodies_.repeat(std::move(repetition)); }
 
   /// Faces that cohesive interfaces hold together; none after set_boundary.
   void set_bonds(const Bonds& bonds) { bodies_.set_bonds(bonds); }

@@ -120,7 +120,8 @@ template<int dim> void RigidContact<dim>::list_touches() {
       touch.weight[a] = -contact.weight[a + 1];
     }
     const double length = (end_[contact.node[1]] - end_[contact.node[2]]).norm();
-    const double gap = contact.normal.dot(at_contact(contact, [&](BoundaryNodeIndex b) { return end_[b]; }));
+    const Vec<dim> apart = at_contact(contact, [&](BoundaryNodeIndex b) { return end_[b]; }) - contact.shift;
+    const double gap = contact.normal.dot(apart);
     if (gap > closed * length) continue;
     const BoundaryNodeIndex node = contact.node[0];
     touch.node = surface_.node[node];

@@ -32,6 +32,7 @@ template<int dim> struct Contact {
   std::array<BoundaryNodeIndex, slots> node{};
   std::array<double, slots> weight{};  ///< w_a; 0 for unused nodes
   Vec<dim> normal = Vec<dim>::Zero();  ///< out of the tool
+  Vec<dim> shift = Vec<dim>::Zero();   ///< m, of what has weights < 0: that image of it is touched
   double level = 0.0;                  ///< m, where the tool is predicted
   Vec<dim> surface = Vec<dim>::Zero(); ///< m/s, predicted velocity of the tool at t_{n+½}
   double coulomb = 0.0;                ///< –

@@ -60,6 +60,7 @@ template<int dim> Surface<dim>::Surface(const std::vector<Facet<dim>>& boundary,
   for (const Facet<dim>& facet : boundary) {
     const FacetIndex f = facets.next();
     auto& corner = facets.emplace_back();
+    piece.push_back(facet.piece);
     for (std::size_t a = 0; a < dim; ++a) corner[a] = number[facet.node[a]];
     if constexpr (dim == 2)
       leaving[corner[0]] = entering[corner[1]] = f;

@@ -25,8 +25,9 @@ struct SurfaceEdge {
 template<int dim> struct Surface {
   IndexedVector<BoundaryNodeIndex, NodeIndex> node;                     ///< in increasing order
   IndexedVector<FacetIndex, std::array<BoundaryNodeIndex, dim>> facets; ///< in the order of the cloud
-  IndexedVector<BoundaryNodeIndex, FacetIndex> leaving, entering;       ///< 2D: none where there is none
-  IndexedVector<BoundaryNodeIndex, std::vector<FacetIndex>> around;     ///< 3D
+  IndexedVector<FacetIndex, PieceIndex> piece;
+  IndexedVector<BoundaryNodeIndex, FacetIndex> leaving, entering;   ///< 2D: none where there is none
+  IndexedVector<BoundaryNodeIndex, std::vector<FacetIndex>> around; ///< 3D
   IndexedVector<SurfaceEdgeIndex, SurfaceEdge> edges; ///< 3D: in the order of their first facets
 
   Surface() = default;

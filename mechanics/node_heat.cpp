@@ -57,6 +57,7 @@ const Field& potential(const Model<dim>& model, const NodeState<dim>& node, Fiel
 
 template<int dim> void share_heat(const Model<dim>& model, const Ties<dim>& ties, NodeState<dim>& node) {
   if (ties.empty()) return;
+  if (!model.thermal) return ties.share(node.mass, node.temperature); // there may be no capacity
   if (!any_curves(model)) return ties.share(node.heat_capacity, node.temperature);
   ties.each_group([&](std::span<const NodeIndex> group) {
     const double common = common_temperature(model, node, group);

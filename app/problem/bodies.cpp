@@ -177,6 +177,19 @@ template<int dim> Pairs tied_pairs(const input::Case& input, const Cloud<dim>& c
   return pairs;
 }
 
+contact::Repetition<3> repetition(const input::Case& input, const Cloud<3>& cloud) {
+  contact::Repetition<3> repeated;
+  for (const input::Periodicity& periodic : input.periodic) {
+    const auto pieces = sides_of(periodic, cloud);
+    repeated.sides.insert(repeated.sides.end(), pieces.begin(), pieces.end());
+    const auto pairs = matching_nodes(input, periodic, cloud);
+    Vec3 sum = Vec3::Zero();
+    for (const auto& [a, b] : pairs) sum += cloud.position[b] - cloud.position[a];
+    repeated.period.push_back(sum / static_cast<double>(pairs.size()));
+  }
+  return repeated;
+}
+
 void pair_facets(const input::Case& input, Cloud<2>& cloud) {
   if (!cloud.twins.empty()) pair_coincident_facets(cloud);
   for (const input::Periodicity& periodic : input.periodic)

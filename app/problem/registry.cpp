@@ -258,7 +258,9 @@ template<int dim> Setup<dim> build(const input::Case& input) {
   model.method = methods::make<dim>(input.method.name, workpiece.options);
   IndexedVector<NodeIndex, std::int32_t> region;
   set_ties(input, model);
-  if constexpr (dim == 2) {
+  if constexpr (dim == 3)
+    model.contact.repeat(repetition(input, model.cloud));
+  else {
     set_parts(input, model, region);
     model.tool_sections = tool_sections(input, setup.warnings);
   }

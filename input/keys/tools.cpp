@@ -173,9 +173,11 @@ void add_contact(Keys& k) {
        "workpiece meet each other by the first in any case.")
       .one_of({"kinematic", "central-difference"})
       .fallback("\"kinematic\"");
-  k.add("contact.deformable", boolean,
-        "Faces of the workpiece do not pass through each other: parts that cracks divide, and one part with "
-        "itself. Bonded interfaces and periodic sides are no such faces.")
+  k.add(
+       "contact.deformable", boolean,
+       "Faces of the workpiece do not pass through each other: parts that cracks divide, and one part with "
+       "itself; in space also images a period away (`periodic`). Bonded interfaces and periodic sides are no "
+       "such faces.")
       .fallback("false");
   k.add("contact.conductance", quantity,
         "Of faces of the workpiece while they are pressed on each other: heat that passes, per area and "

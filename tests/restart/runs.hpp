@@ -16,11 +16,12 @@ struct SmallCase {
 /// is gone back from, a window that moves, space.
 const std::vector<SmallCase>& small_cases();
 /// Those of them that are three-dimensional: a block that is hit, one that is refined, a strip that is
-/// sheared until it parts, and a slab between periodic planes.
+/// sheared until it parts, a slab between periodic planes, and a slot between them that closes.
 std::string space_case();
 std::string space_refined();
 std::string space_sheared();
 std::string space_periodic();
+std::string space_images();
 /// Bonded, periodic and cracked.
 std::string parts_case();
 std::string delaminating_case();

@@ -377,6 +377,7 @@ const std::vector<SmallCase>& small_cases() {
       {"space_refined", space_refined()},
       {"space_sheared", space_sheared()},
       {"space_periodic", space_periodic()},
+      {"space_images", space_images()},
       {"rolled", adapted + rolled},
       {"compressible", adapted + compressible},
       {"adapted_particles", with_method(adapted, "name = \"sph\"\n")},

@@ -157,4 +157,43 @@ friction = { law = "coulomb", coefficient = 0.3 }
          testing::steel_304l;
 }
 
+// A slot between periodic planes that a punch closes and drags along: lips meet images of each other while
+// passes add and take out nodes.
+std::string space_images() {
+  return R"toml(
+[analysis]
+kinematics = "three-dimensional"
+[time]
+end = "4 us"
+[domain]
+material = "steel"
+outer.start = "0 0 mm"
+outer.path = [
+  { to = "1.2 0 mm", name = "base" }, { to = "1.2 0.4 mm" }, { to = "0.4 0.4 mm" }, { to = "0.4 0.5 mm" },
+  { to = "1.2 0.5 mm" }, { to = "1.2 0.9 mm" }, { to = "0 0.9 mm" }, { to = "0 0 mm" },
+]
+extrude = { to = "0.6 mm" }
+[cloud]
+spacing = "0.15 mm"
+[method]
+rereference = { every = 20, strain = 0.1 }
+[adapt]
+resample = true
+[contact]
+deformable = true
+friction = { law = "coulomb", coefficient = 0.2 }
+[periodic.slab]
+pieces = ["z-", "z+"]
+[boundary.base]
+pieces = ["base"]
+velocity = "0 0 0 m/s"
+[tools.punch]
+shape = "box"
+box = { from = "0.2 0.9 -1 mm", to = "2 2 2 mm" }
+velocity = "0 -80 120 m/s"
+friction = { law = "coulomb", coefficient = 0.3 }
+)toml" + frequent_output +
+         testing::steel_304l;
+}
+
 } // namespace cnem::app

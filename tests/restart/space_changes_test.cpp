@@ -1,4 +1,4 @@
-// What the cases in space that others are killed on go through: one is refined, one parts, one is periodic.
+// What the cases in space that others are killed on go through: one is refined, one parts, two are periodic.
 #include "results/status.hpp"
 #include "tests/restart/process.hpp"
 #include "tests/restart/runs.hpp"
@@ -53,6 +53,14 @@ TEST(SpacePeriodic, nodes_come_and_go_on_both_sides) {
   EXPECT_EQ(metric.at("adapt.crossings"), 0.0);
   EXPECT_EQ(metric.at("retries"), 0.0);
   EXPECT_EQ(ending.printed.find("could not be renewed"), std::string::npos) << ending.printed;
+  EXPECT_LT(std::abs(metric.at("adapt.mass_error")), 1e-12);
+  EXPECT_LT(std::abs(metric.at("adapt.momentum_error")), 1e-12);
+}
+
+TEST(SpaceImages, passes_between_lips_that_meet_images_keep_what_they_carry) {
+  const auto [ending, metric] = finished("space_images");
+  EXPECT_GT(metric.at("adapt.inserted_boundary"), 5.0);
+  EXPECT_EQ(metric.at("retries"), 0.0);
   EXPECT_LT(std::abs(metric.at("adapt.mass_error")), 1e-12);
   EXPECT_LT(std::abs(metric.at("adapt.momentum_error")), 1e-12);
 }

@@ -52,6 +52,8 @@ bool FlippableSurface::flip(SurfaceEdge e, double least_cosine) {
   if (exists(other_f)) {
     const SurfaceEdge other = edge_between(other_f, other_g);
     if (other < 0 || !may_flip(other, least_cosine)) return false;
+    if (apex(e) == apex(other) && apex(across(e)) == apex(across(other)))
+      return false; // one edge of four facets
     turn(other);
     behind_[other_f] = g, behind_[other_g] = f;
     behind_[f] = other_g, behind_[g] = other_f;

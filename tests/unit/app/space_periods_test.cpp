@@ -2,10 +2,13 @@
 // mass, momentum and energy are kept; pairs stay pairs.
 #include "app/problem/bodies.hpp"
 #include "app/problem/registry.hpp"
+#include "app/space_adaptation.hpp"
+#include "core/fields/vector_at.hpp"
 #include "input/case_reader.hpp"
 #include "tests/clouds.hpp"
 #include "tests/steel.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <functional>
@@ -167,6 +170,137 @@ TEST(SpacePeriods, nodes_on_a_symmetry_plane_too_stay_on_it) {
     }
   });
   EXPECT_EQ(both, 10);
+}
+
+/// A slice of a profile with a slot along z whose lips close while the upper one goes along z by half the
+/// width of the slice: that half meets the image of the lower lip.
+class Lips {
+public:
+  explicit Lips(bool touch)
+      : solver_(
+            start(input::read_case_text(R"toml(
+[analysis]
+kinematics = "three-dimensional"
+[time]
+end = "1 us"
+[domain]
+material = "steel"
+outer.start = "0 0 mm"
+outer.path = [
+  { to = "1.2 0 mm" }, { to = "1.2 0.4 mm" }, { to = "0.4 0.4 mm", name = "lower" }, { to = "0.4 0.5 mm" },
+  { to = "1.2 0.5 mm", name = "upper" }, { to = "1.2 0.9 mm" }, { to = "0 0.9 mm" }, { to = "0 0 mm" },
+]
+extrude = { to = "0.4 mm" }
+[cloud]
+spacing = "0.1 mm"
+[periodic.z]
+pieces = ["z-", "z+"]
+)toml" +
+                                            std::string(touch ? "[contact]\ndeformable = true\nfriction = { "
+                                                                "law = \"coulomb\", coefficient = 0.2 }\n"
+                                                              : "") +
+                                            steel_304l,
+                                        "case.toml"),
+                  [](const Vec3& x) -> Vec3 {
+                    return x.y() > 0.45e-3 ? Vec3(5.0, -150.0, 300.0) : Vec3(0.0, 0.0, 0.0);
+                  })) {}
+
+  /// m/s.
+  Vec3 mean_velocity() const {
+    const auto& node = solver_.state().node;
+    Vec3 sum = Vec3::Zero();
+    double mass = 0.0;
+    for (std::size_t i = 0; i < node.size(); ++i) {
+      mass += node.mass[i];
+      for (int k = 0; k < 3; ++k) sum[k] += node.mass[i] * node.velocity[index_of(k)][i];
+    }
+    return sum / mass;
+  }
+
+  /// m, by how much the upper lip lies in the lower one, or in an image of it.
+  double deepest() const {
+    double depth = 0.0;
+    for (const NodeIndex i : nodes("upper"))
+      for (const Facet<3>& facet : solver_.conditions().cloud.facets) {
+        if (name(facet) != "lower") continue;
+        for (const double period : {-0.4e-3, 0.0, 0.4e-3, 0.8e-3}) {
+          const Vec3 x = place(i) - Vec3(0.0, 0.0, period), a = place(facet.node[0]),
+                     e = place(facet.node[1]) - a, f = place(facet.node[2]) - a, r = x - a;
+          const double area = e.x() * f.z() - e.z() * f.x(), s = (r.x() * f.z() - r.z() * f.x()) / area,
+                       t = (e.x() * r.z() - e.z() * r.x()) / area;
+          if (s < 0.0 || t < 0.0 || s + t > 1.0) continue;
+          depth = std::max(depth, (a + s * e + t * f - x).y());
+        }
+      }
+    return depth;
+  }
+
+  /// m, by how much the upper lip has gone beyond the lower one.
+  double beyond() const {
+    double most = 0.0;
+    for (const NodeIndex i : nodes("upper")) most = std::max(most, place(i).z() - 0.4e-3);
+    return most;
+  }
+
+  void run() {
+    while (solver_.state().time < 0.8e-6) solver_.advance(solver_.stable_step().dt);
+  }
+  const ExplicitSolver<3>& solver() const { return solver_; }
+
+private:
+  std::string name(const Facet<3>& facet) const {
+    return solver_.conditions().cloud.piece_names[facet.piece];
+  }
+  Vec3 place(NodeIndex i) const { return vector_at<3>(solver_.state().node.position, index_of(i)); }
+  std::vector<NodeIndex> nodes(const std::string& piece) const {
+    std::vector<NodeIndex> all;
+    for (const Facet<3>& facet : solver_.conditions().cloud.facets)
+      if (name(facet) == piece) all.insert(all.end(), facet.node.begin(), facet.node.end());
+    return all;
+  }
+
+  ExplicitSolver<3> solver_;
+};
+
+TEST(SpacePeriods, lips_that_close_meet_images_of_each_other) {
+  Lips lips(true), free(false);
+  const Vec3 before = lips.mean_velocity();
+  lips.run();
+  free.run();
+  EXPECT_GT(lips.beyond(), 0.1e-3) << "a quarter of the slice";
+  EXPECT_LT(lips.deepest(), 1e-7);
+  EXPECT_GT(free.deepest(), 5e-6) << "they would have passed through each other";
+  EXPECT_LT((lips.mean_velocity() - before).norm(), 1e-12 * 300.0);
+  EXPECT_LT(std::abs(lips.solver().ledger().residual()), 1e-3 * lips.solver().ledger().initial());
+}
+
+// Without heat there may be no capacity to weigh the temperatures of images by.
+TEST(SpacePeriods, temperatures_stay_through_a_pass_of_metal_that_has_no_heat) {
+  const input::Case input = input::read_case_text(R"toml(
+[analysis]
+kinematics = "three-dimensional"
+thermal = false
+[time]
+end = "1 us"
+[domain]
+material = "metal"
+block = { from = "0 0 0 mm", to = "1 0.8 0.6 mm" }
+[cloud]
+spacing = "0.2 mm"
+[materials.metal]
+density = "7850 kg/m3"
+elastic = { young = "210 GPa", poisson = 0.3 }
+[adapt]
+resample = true
+[initial]
+temperature = "350 K"
+)toml" + std::string(x_period),
+                                                  "case.toml");
+  ExplicitSolver<3> solver = start(input, [](const Vec3& x) -> Vec3 { return {1e5 * x.z(), 0.0, 0.0}; });
+  app::SpaceAdaptation adaptation(input, solver);
+  for (int n = 0; n < 5; ++n) solver.advance(solver.stable_step().dt);
+  adaptation.renew(solver, [](const Resampling<3>&) {});
+  for (const double temperature : solver.state().node.temperature) EXPECT_NEAR(temperature, 350.0, 1e-10);
 }
 
 } // namespace

@@ -121,6 +121,20 @@ TEST(recovery, nothing_crosses_a_slit) {
     }
 }
 
+// Where the tip of a bent slit goes to and fro, the other diagonal may join two nodes of the tip, which both
+// faces share: it would be one edge of four facets.
+TEST(recovery, edges_of_both_faces_of_a_slit_stay_two) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    Cloud<3> cloud = unrecovered({.shape = SpaceShape::slit, .cells = 4, .jitter = 0.3, .seed = seed});
+    for (Vec3& x : cloud.position) {
+      const double width = 0.35 + 0.65 * x.x();
+      x = Vec3(1.4 * x.x(), x.y() * width + 0.1 * x.x() * x.x(), 0.7 * x.z() * width);
+    }
+    flip_surface(cloud, 0.25);
+    EXPECT_NO_THROW(surface_edges(cloud)) << "seed " << seed;
+  }
+}
+
 /// Two prisms with 0.1 mm between them, on the long diagonal of a face that is not flat. Below it is a
 /// crease, above the short diagonal looks better, but passes through the crease.
 Cloud<3> prisms_on_a_crease() {
