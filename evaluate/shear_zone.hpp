@@ -28,8 +28,8 @@ struct ShearZone {
 /// within 0 and 1, R = ρ c V f/K (b = 0 without conduction). The angle θ of the force to the plane and the
 /// friction angle λ = atan μ give φ:
 ///   tan θ = 1 + 2(π/4 − φ) − C0 n, n = (ε/σ) ∂σ/∂ε, θ = φ + λ − α.
-/// the largest one between 1° and that of a chip which does not flow; none where none fits. Damage and the
-/// edge play no part.
+/// Of several the largest one is taken, between 1° and that of a chip which does not flow; none where none
+/// fits. Damage and the edge play no part.
 std::optional<ShearZone> shear_zone(const plasticity::Material& material, const ShearZoneCut& cut);
 
 } // namespace cnem::evaluate
