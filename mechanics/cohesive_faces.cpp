@@ -65,14 +65,16 @@ CohesiveWork CohesiveFaces::evaluate(const Fields<2>& position) {
         const Vec2 jump = now.jump(element, end);
         const double across = now.normal.dot(jump);
         const Vec2 separation(across - state.offset, now.along.dot(jump));
-        const double damage = now.across_each_other() ? 1.0 : law.damage_at(separation, state.damage);
+        const bool across_each_other = now.across_each_other();
+        const double damage = across_each_other ? 1.0 : law.damage_at(separation, state.damage);
         const double pressed = std::min(separation.x(), 0.0) * std::min(state.separation.x(), 0.0);
         work.dissipated += weight * law.dissipated(state.separation, separation, damage - state.damage);
         has_broken_ |= damage >= 1.0 && state.damage < 1.0;
         state.damage = damage;
         state.separation = separation;
-        if (free(state)) { // contact goes on with what is pressed together, and K stores no more
+        if (free(state) || across_each_other) { // contact goes on with what is pressed, K stores no more
           work.dissipated += weight * 0.5 * law.stiffness * pressed;
+          if (!free(state)) state.separation.setZero(); // it is booked
           continue;
         }
         work.stored += weight * law.stored(separation, damage);
@@ -101,12 +103,15 @@ Field CohesiveFaces::stiffness_rows(const Fields<2>& position) const {
   Field row(position[0].size(), 0.0);
   for (const CohesiveInterface& interface : interface_)
     for (std::size_t e = 0; e < interface.element.size(); ++e) {
+      if (free(interface.state[e][0]) && free(interface.state[e][1])) continue;
       const CohesiveElement& element = interface.element[e];
       const PlacedElement now(element, position);
+      if (now.across_each_other()) continue;
       for (std::size_t end = 0; end < 2; ++end) {
         const CohesiveEnd& state = interface.state[e][end];
         if (free(state)) continue;
-        const double apart = now.jump(element, end).norm() / now.stretch;
+        const bool open = state.damage >= 1.0 && state.separation.x() >= 0.0; // bears nothing
+        const double apart = open ? 0.0 : now.jump(element, end).norm() / now.stretch;
         const std::array<double, 2> arm{apart / now.span[0], apart / now.span[1]};
         const double whole = interface.spec.law.stiffness * element.weight() * 2.0 * (1.0 + arm[0] + arm[1]);
         for (std::size_t s = 0; s < 2; ++s) {

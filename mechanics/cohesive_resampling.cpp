@@ -30,22 +30,22 @@ CohesiveEnd between(const std::array<CohesiveEnd, 2>& ends, double place) {
   return result;
 }
 
-/// [new node] arc length of those that are old nodes of a face, or made of such alone, or that a node of it
-/// went into; NaN elsewhere.
-IndexedVector<NodeIndex, double> known_arcs(const std::vector<BondedSegment>& before,
-                                            const Resampling<2>& change) {
-  IndexedVector<NodeIndex, double> old(change.new_of.size(), unknown), now(change.old_of.size(), unknown);
+using Arcs = IndexedVector<NodeIndex, double>; ///< [node] m, NaN where it is not known
+
+/// Of the old nodes of a face.
+Arcs old_arcs(const std::vector<BondedSegment>& before, const Resampling<2>& change) {
+  Arcs old(change.new_of.size(), unknown);
   for (const BondedSegment& segment : before)
     for (std::size_t k = 0; k < 2; ++k) old[segment.node[k]] = segment.arc[k];
+  return old;
+}
+
+/// Of new nodes that are old nodes of a face, or made of such alone.
+Arcs known_arcs(const Arcs& old, const Resampling<2>& change) {
+  Arcs now(change.old_of.size(), unknown);
   for (const NodeIndex i : now.indices()) {
     if (exists(change.old_of[i])) {
       now[i] = old[change.old_of[i]];
-      if (std::isnan(now[i]))
-        for (auto e = index_of(change.parcels.begin[index_of(i)]);
-             e < index_of(change.parcels.begin[index_of(i) + 1]); ++e)
-          if (const NodeIndex from = change.parcels.from[e];
-              !exists(change.new_of[from]) && !std::isnan(old[from]))
-            now[i] = old[from];
       continue;
     }
     now[i] = 0.0;
@@ -56,12 +56,29 @@ IndexedVector<NodeIndex, double> known_arcs(const std::vector<BondedSegment>& be
   return now;
 }
 
+/// Where the first or last node of a chain is another than before, and the one of before went into it, it
+/// takes over: the outermost of several, beyond all that is known of the chain.
+void take_over_end(const std::vector<NodeIndex>& chain, bool first, const Arcs& old,
+                   const Resampling<2>& change, Arcs& arc) {
+  const NodeIndex end = first ? chain.front() : chain.back();
+  if (!std::isnan(arc[end])) return;
+  double outermost =
+      first ? std::numeric_limits<double>::infinity() : -std::numeric_limits<double>::infinity();
+  const auto beyond = [&](double a) { return first ? a < outermost : a > outermost; };
+  const auto p = index_of(end);
+  for (auto e = index_of(change.parcels.begin[p]); e < index_of(change.parcels.begin[p + 1]); ++e) {
+    const NodeIndex from = change.parcels.from[e];
+    if (!exists(change.new_of[from]) && !std::isnan(old[from]) && beyond(old[from])) outermost = old[from];
+  }
+  if (std::isinf(outermost)) return;
+  for (const NodeIndex i : chain)
+    if (!std::isnan(arc[i]) && !(first ? outermost < arc[i] : outermost > arc[i])) return;
+  arc[end] = outermost;
+}
+
 /// Nodes of a chain of segments that have no arc length take it between their neighbours, by distance. What
 /// begins or ends without one is left out.
-void fill_chain(std::vector<BondedSegment>& face, std::size_t first, std::size_t last, const Cloud<2>& cloud,
-                IndexedVector<NodeIndex, double>& arc) {
-  std::vector<NodeIndex> chain{face[first].node[0]};
-  for (std::size_t i = first; i < last; ++i) chain.push_back(face[i].node[1]);
+void fill_chain(const std::vector<NodeIndex>& chain, const Cloud<2>& cloud, Arcs& arc) {
   for (std::size_t a = 0; a < chain.size(); ++a) {
     if (std::isnan(arc[chain[a]])) continue;
     std::size_t b = a + 1;
@@ -82,11 +99,15 @@ void fill_chain(std::vector<BondedSegment>& face, std::size_t first, std::size_t
 std::vector<BondedSegment> follow(const std::vector<BondedSegment>& before, PieceIndex piece,
                                   std::size_t side, const Resampling<2>& change) {
   std::vector<BondedSegment> face = segments_of(change.cloud, piece, side);
-  IndexedVector<NodeIndex, double> arc = known_arcs(before, change);
+  const Arcs old = old_arcs(before, change);
+  Arcs arc = known_arcs(old, change);
   for (std::size_t first = 0; first < face.size();) {
     std::size_t last = first + 1;
     while (last < face.size() && face[last].node[0] == face[last - 1].node[1]) ++last;
-    fill_chain(face, first, last, change.cloud, arc);
+    std::vector<NodeIndex> chain{face[first].node[0]};
+    for (std::size_t i = first; i < last; ++i) chain.push_back(face[i].node[1]);
+    for (const bool begin : {true, false}) take_over_end(chain, begin, old, change, arc);
+    fill_chain(chain, change.cloud, arc);
     first = last;
   }
   for (BondedSegment& segment : face)

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <optional>
 #include <set>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -74,6 +75,25 @@ NodeIndex host_of(const WorkingCloud& work, const std::vector<NodeIndex>& crumb,
   return host;
 }
 
+struct Joining {
+  std::vector<NodeIndex> crumb;
+  NodeIndex host;
+};
+
+WorkingCloud with_joined(const WorkingCloud& work, std::span<const Joining> joining) {
+  WorkingCloud joined = work;
+  IndexedVector<NodeIndex, char> gone(work.size(), 0);
+  for (const auto& [crumb, host] : joining)
+    for (const NodeIndex i : crumb) {
+      joined.move_now(i, host, 1.0);
+      joined.bypass(i);
+      gone[i] = 1;
+    }
+  joined.drop(gone);
+  joined.refresh_facets();
+  return joined;
+}
+
 /// Each node of a crumb gets a share of the matter of all: it moves as one from there on.
 void mix(WorkingCloud& work, const std::vector<NodeIndex>& crumb, PassReport& report) {
   std::vector<double> mass;
@@ -84,7 +104,7 @@ void mix(WorkingCloud& work, const std::vector<NodeIndex>& crumb, PassReport& re
     work.move_now(crumb.front(), crumb[k], mass[k] / rest);
     rest -= mass[k];
   }
-  report.balanced += static_cast<int>(crumb.size());
+  ++report.mixed;
 }
 
 } // namespace
@@ -108,35 +128,33 @@ void join_crumbs(WorkingCloud& work, Structure& structure, const SplitRules& rul
   std::set<PieceIndex> elsewhere{rules.piece};
   for (const NodeIndex i : work.nodes())
     if (work.on_boundary(i) && !gone[i]) elsewhere.insert(work.piece(i));
-  std::vector<NodeIndex> host; // of those that are thin
+  std::vector<Joining> joining;
   for (const std::vector<NodeIndex>& loop : thin) {
     const bool may_go =
         std::all_of(loop.begin(), loop.end(), [&](NodeIndex i) { return elsewhere.contains(work.piece(i)); });
-    host.push_back(may_go ? host_of(work, loop, gone) : NodeIndex::none);
-    if (exists(host.back())) continue;
+    if (const NodeIndex host = may_go ? host_of(work, loop, gone) : NodeIndex::none; exists(host)) {
+      joining.push_back({loop, host});
+      continue;
+    }
     for (const NodeIndex i : loop) gone[i] = 0;
-    alone.push_back(loop);
+    if (is_broken(work, loop)) alone.push_back(loop);
   }
   for (const std::vector<NodeIndex>& loop : alone) mix(work, loop, report);
-  const auto count = static_cast<int>(std::count_if(host.begin(), host.end(), exists<NodeIndex>));
-  if (count == 0) return;
-  WorkingCloud joined = work;
-  for (std::size_t k = 0; k < thin.size(); ++k)
-    for (const NodeIndex i : thin[k]) {
-      if (!exists(host[k])) continue;
-      joined.move_now(i, host[k], 1.0);
-      joined.bypass(i);
-    }
-  joined.drop(gone);
-  joined.refresh_facets();
+  if (joining.empty()) return;
+  WorkingCloud joined = with_joined(work, joining);
   std::optional<Structure> after = structure_if_valid(joined.cloud(), structure.space);
-  if (!after) {
+  if (!after) { // those that may alone
     ++report.undone;
-    return;
+    std::erase_if(joining, [&](const Joining& one) {
+      return !structure_if_valid(with_joined(work, std::span(&one, 1)).cloud(), structure.space);
+    });
+    joined = with_joined(work, joining);
+    after = structure_if_valid(joined.cloud(), structure.space);
+    if (!after) return;
   }
   work = std::move(joined);
   structure = std::move(*after);
-  report.crumbs += count;
+  report.crumbs += static_cast<int>(joining.size());
 }
 
 } // namespace cnem::adapt

@@ -99,13 +99,14 @@ void open_cracks(WorkingCloud& work, Structure& structure, const SplitRules& rul
 void cut_films(WorkingCloud& work, Structure& structure, const SplitRules& rules, PassReport& report);
 /// Crumbs, bodies of at most SplitRules::least_loop nodes, none of them inside, and thinner than
 /// SplitRules::thinnest_film or a fiftieth of the spacing, go to the nearest node of the boundary of the same
-/// part, however far it is: cells of theirs, pressed between tools and bodies, mean nothing. A body as small
-/// that is thicker and broken at all nodes stays, with its matter shared out evenly among its nodes, so that
-/// it moves as one. Nothing is deleted.
+/// part, however far it is, corners or not: cells of theirs, pressed between tools and bodies, mean nothing.
+/// What has none, or the last facets of a piece, stays, and so does a body as small that is thicker; where
+/// all nodes are broken its matter is shared out evenly among them, so that it moves as one. Nothing is
+/// deleted.
 void join_crumbs(WorkingCloud& work, Structure& structure, const SplitRules& rules, PassReport& report);
 /// Facets shorter than a twentieth of the spacing between two nodes that stay, corners and ends of pieces, go
-/// with the first of them, but for the last facet of a piece: nothing else takes them away, and the step, or
-/// the inertia that scaling adds, goes with them.
+/// with the one of them that bends the boundary less, but for the last facet of a piece: nothing else takes
+/// them away, and the step, or the inertia that scaling adds, goes with them.
 void join_ends(WorkingCloud& work, Structure& structure, PassReport& report);
 /// One round; false when there was nothing to do, or it was undone because the cloud would have had no valid
 /// structure.

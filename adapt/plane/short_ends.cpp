@@ -2,43 +2,87 @@
 #include "adapt/plane/resample.hpp"
 #include "core/index.hpp"
 
-#include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
+#include <span>
 #include <utility>
+#include <vector>
 
 namespace cnem::adapt {
 
-void join_ends(WorkingCloud& work, Structure& structure, PassReport& report) {
-  constexpr double shortest = 0.05; // of the spacing
-  const auto& at = work.cloud().position;
+namespace {
+
+/// A node at an end of a short facet, and the other end.
+struct End {
+  NodeIndex goes, stays;
+};
+
+/// m, of a point from the line through two others.
+double off_line(const Vec2& x, const Vec2& a, const Vec2& b) {
+  return std::abs(cross((b - a).normalized(), x - a));
+}
+
+/// Takes ends out of a cloud, but where that would be the last of a piece. Returns how many.
+int take_out(WorkingCloud& work, std::span<const End> ends) {
   std::map<PieceIndex, int> facets;
   for (const NodeIndex i : work.nodes())
     if (work.on_boundary(i)) ++facets[work.piece(i)];
   IndexedVector<NodeIndex, char> gone(work.size(), 0);
-  WorkingCloud joined = work;
   int count = 0;
-  for (const NodeIndex a : work.nodes()) {
-    if (!joined.on_boundary(a)) continue;
-    const NodeIndex b = joined.next(a);
-    if ((at[b] - at[a]).norm() >= shortest * work.size_between(a, b) || !joined.stays(a) ||
-        !joined.stays(b) || joined.has_mates(a) || joined.has_mates(b) || joined.next(joined.next(b)) == a)
-      continue;
-    int& left = facets[joined.piece(a)];
+  for (const auto& [node, other] : ends) {
+    if (gone[node] || gone[other] || work.next(work.next(work.next(node))) == node) continue;
+    const bool first = work.next(node) == other;
+    if (!first && work.previous(node) != other) continue;
+    const NodeIndex before = work.previous(node);
+    // the free piece takes over from the facet before it
+    const bool taken_over = first && work.piece(node) == work.free_piece();
+    int& left = facets[work.piece(first && !taken_over ? node : before)];
     if (left == 1) continue;
     --left;
-    joined.move_now(a, b, 1.0);
-    joined.bypass(a);
-    gone[a] = 1;
+    if (!first) work.take_next_piece(before);
+    work.move_now(node, other, 1.0);
+    work.bypass(node);
+    gone[node] = 1;
     ++count;
   }
+  if (count == 0) return 0;
+  work.drop(gone);
+  work.refresh_facets();
+  return count;
+}
+
+} // namespace
+
+void join_ends(WorkingCloud& work, Structure& structure, PassReport& report) {
+  constexpr double shortest = 0.05; // of the spacing
+  std::vector<End> ends;
+  const auto at = [&](NodeIndex i) -> const Vec2& { return work.cloud().position[i]; };
+  for (const NodeIndex a : work.nodes()) {
+    if (!work.on_boundary(a)) continue;
+    const NodeIndex b = work.next(a);
+    if ((at(b) - at(a)).norm() >= shortest * work.size_between(a, b) || !work.stays(a) || !work.stays(b) ||
+        work.has_mates(a) || work.has_mates(b))
+      continue;
+    // the one that bends the boundary less
+    const bool first =
+        off_line(at(a), at(work.previous(a)), at(b)) <= off_line(at(b), at(a), at(work.next(b)));
+    ends.push_back(first ? End{a, b} : End{b, a});
+  }
+  const auto valid_without = [&](std::span<const End> some, WorkingCloud& joined, int& count) {
+    joined = work;
+    count = take_out(joined, some);
+    return count > 0 ? structure_if_valid(joined.cloud(), structure.space) : std::nullopt;
+  };
+  WorkingCloud joined = work;
+  int count = 0;
+  std::optional<Structure> after = valid_without(ends, joined, count);
   if (count == 0) return;
-  joined.drop(gone);
-  joined.refresh_facets();
-  std::optional<Structure> after = structure_if_valid(joined.cloud(), structure.space);
-  if (!after) {
+  if (!after) { // those that may go alone
     ++report.undone;
-    return;
+    std::erase_if(ends, [&](const End& end) { return !valid_without(std::span(&end, 1), joined, count); });
+    after = valid_without(ends, joined, count);
+    if (!after) return;
   }
   work = std::move(joined);
   structure = std::move(*after);

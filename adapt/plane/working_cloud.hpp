@@ -52,6 +52,9 @@ public:
   /// Takes the boundary past a node and its mate, which become interior ones (to be removed). The free piece
   /// takes over from others.
   void bypass(NodeIndex node);
+  /// The facet that leaves a node goes over to the piece of the next one.
+  void take_next_piece(NodeIndex i) { piece_[i] = piece_[next_[i]]; }
+  PieceIndex free_piece() const { return free_piece_; }
   /// Puts a node elsewhere; what it has goes with it.
   void place(NodeIndex node, const Vec2& x) { cloud_.position[node] = x; }
   /// Opens the domain along a path from a boundary node over interior ones to another boundary node, or to an

@@ -50,34 +50,43 @@ TEST(Thin, shallow_slits_are_closed) {
   }
 }
 
+/// A step of this height in the lower side, its facet short; `before`, `of_step`, `behind`: pieces.
+struct Stepped : Blank {
+  NodeIndex foot{}, head{}; ///< of the step
+  Stepped(double height, std::array<PieceIndex, 3> pieces) {
+    testing::add_loop(cloud, {{0.0, 0.0}, {0.5, 0.0}, {0.5, height}, {1.0, height}, {1.0, 0.6}, {0.0, 0.6}},
+                      0.1);
+    testing::fill(cloud, testing::Lattice::hexagonal, 0.1, 0.2, 0.05, 1);
+    weigh(0.1);
+    cloud.piece_names = {"before", "step", "behind", "fracture", "rest"};
+    for (Facet<2>& facet : cloud.facets) {
+      const Vec2 &from = cloud.position[facet.node[0]], &to = cloud.position[facet.node[1]];
+      facet.piece = 4_piece;
+      if (from.y() == 0.0 && to.y() == 0.0) facet.piece = pieces[0];
+      if (from.y() == height && to.y() == height) facet.piece = pieces[2];
+      if ((to - from).norm() > 0.01) continue;
+      facet.piece = pieces[1];
+      foot = facet.node[0];
+      head = facet.node[1];
+      for (const NodeIndex i : facet.node) node.held[i] = 1;
+    }
+  }
+};
+
 // Beside a fibre that ends at a corner the matrix has a facet of its own, which is pressed together.
 TEST(Thin, a_short_facet_between_corners_goes_unless_it_is_the_last_of_its_piece) {
-  for (const auto& [length, pieces, goes] :
-       {std::tuple{0.004, 2, true}, {0.006, 2, false}, {0.004, 1, false}}) {
-    Blank b;
-    testing::add_loop(b.cloud, {{0.0, 0.0}, {0.5, 0.0}, {0.5, length}, {1.0, length}, {1.0, 0.6}, {0.0, 0.6}},
-                      0.1);
-    testing::fill(b.cloud, testing::Lattice::hexagonal, 0.1, 0.2, 0.05, 1);
-    b.weigh(0.1);
-    b.cloud.piece_names = {"bottom", "face", "ledge"};
-    NodeIndex corner = NodeIndex::none;
-    for (Facet<2>& facet : b.cloud.facets) {
-      const Vec2 &from = b.cloud.position[facet.node[0]], &to = b.cloud.position[facet.node[1]];
-      if (from.y() == length && to.y() == length) facet.piece = 2_piece;
-      if ((to - from).norm() < 0.01) {
-        corner = facet.node[0];
-        for (const NodeIndex i : facet.node) b.node.held[i] = 1;
-      }
-      if ((to - from).norm() < 0.01 || (pieces == 2 && from.x() == 1.0 && to.x() == 1.0))
-        facet.piece = 1_piece;
-    }
-    ASSERT_TRUE(exists(corner));
-    WorkingCloud work(b.cloud, b.node);
+  for (const auto& [height, pieces, goes] : {std::tuple{0.004, std::array{0_piece, 4_piece, 2_piece}, true},
+                                             {0.006, std::array{0_piece, 4_piece, 2_piece}, false},
+                                             {0.004, std::array{0_piece, 1_piece, 2_piece}, false},
+                                             {0.004, std::array{0_piece, 3_piece, 3_piece}, true}}) {
+    const Stepped b(height, pieces);
+    WorkingCloud work(b.cloud, b.node, 3_piece);
     Structure structure = build_structure(b.cloud);
     PassReport report;
     join_ends(work, structure, report);
     const Resampling<2> change = work.finish();
-    EXPECT_EQ(!exists(change.new_of[corner]), goes) << length << " " << pieces;
+    EXPECT_EQ(exists(change.new_of[b.foot]) && exists(change.new_of[b.head]), !goes) << height;
+    EXPECT_EQ(report.removed_boundary, goes ? 1 : 0);
     EXPECT_EQ(report.undone, 0);
     EXPECT_EQ(shortest_facet(change.cloud) > 0.05, goes);
     EXPECT_EQ(structure.mesh.triangle_of_node.size(), change.cloud.position.size());
@@ -87,9 +96,27 @@ TEST(Thin, a_short_facet_between_corners_goes_unless_it_is_the_last_of_its_piece
     EXPECT_NEAR(mass, std::accumulate(b.node.mass.begin(), b.node.mass.end(), 0.0), 1e-14);
     for (const Facet<2>& facet : change.cloud.facets) { // each piece goes on to its end
       const Vec2 &from = change.cloud.position[facet.node[0]], &to = change.cloud.position[facet.node[1]];
-      if (from.y() == 0.0 && to.x() == 0.5 && goes) { EXPECT_EQ(facet.piece, 0_piece); }
-      if (from.x() == 0.5 && to.x() > 0.5) { EXPECT_EQ(facet.piece, 2_piece); }
+      const bool ends = from.y() < 0.3 && to.y() < 0.3 && to.x() == 0.5 && from.x() < 0.5;
+      if (ends && pieces[1] != 3_piece) { EXPECT_EQ(facet.piece, pieces[0]); }
+      if (from.x() == 0.5 && to.x() > 0.5) { EXPECT_EQ(facet.piece, pieces[2]); }
     }
+  }
+}
+
+// The free piece takes over from what lies before it: that has to be no last facet.
+TEST(Thin, a_short_free_facet_does_not_take_the_last_one_of_a_piece_with_it) {
+  for (const bool last : {false, true}) {
+    Stepped b(0.004, {0_piece, 3_piece, 2_piece});
+    for (Facet<2>& facet : b.cloud.facets)
+      if (facet.piece == 0_piece && (!last || facet.node[1] != b.foot))
+        facet.piece = last ? 4_piece : 0_piece;
+    WorkingCloud work(b.cloud, b.node, 3_piece);
+    Structure structure = build_structure(b.cloud);
+    PassReport report;
+    join_ends(work, structure, report);
+    const Resampling<2> change = work.finish();
+    EXPECT_TRUE(std::any_of(change.cloud.facets.begin(), change.cloud.facets.end(),
+                            [](const Facet<2>& facet) { return facet.piece == 0_piece; }));
   }
 }
 

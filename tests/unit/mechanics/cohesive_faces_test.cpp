@@ -147,18 +147,41 @@ TEST(CohesiveFaces, frequency_is_bounded_where_faces_have_slid) {
 }
 
 TEST(CohesiveFaces, that_have_turned_across_each_other_are_broken) {
-  for (const double turn : {0.45, 0.55}) { // of π
-    const Cloud<2> cloud = two_faces(matching, matching);
-    CohesiveFaces faces = faces_of(cloud, true);
-    Fields<2> x = places(cloud);
-    for (std::size_t i = 0; i < matching.size(); ++i) { // the upper face comes into the lower one
-      x[1][i] = -x[0][i] * std::sin(turn * std::numbers::pi);
-      x[0][i] *= std::cos(turn * std::numbers::pi);
+  for (const bool contact : {false, true})
+    for (const double turn : {0.45, 0.55}) { // of π
+      const Cloud<2> cloud = two_faces(matching, matching);
+      CohesiveFaces faces = faces_of(cloud, contact);
+      Fields<2> x = places(cloud);
+      const auto turned = [&](double by) { // the upper face comes into the lower one
+        Fields<2> to = x;
+        for (std::size_t i = 0; i < matching.size(); ++i) {
+          to[1][i] = -x[0][i] * std::sin(by * std::numbers::pi);
+          to[0][i] = x[0][i] * std::cos(by * std::numbers::pi);
+        }
+        return to;
+      };
+      const double stored = faces.evaluate(turned(0.45)).stored;
+      const CohesiveWork work = faces.evaluate(turned(turn));
+      const bool across = turn > 0.5;
+      EXPECT_EQ(CohesiveFaces::broken_length(faces.interfaces()[0]) > 3.9 * h, across);
+      EXPECT_EQ(work.stored, across ? 0.0 : stored);
+      EXPECT_EQ(work.dissipated > 0.9 * stored, across) << "what was stored is booked";
+      double size = 0.0;
+      for (std::size_t i = 0; i < x[0].size(); ++i) size += vector_at<2>(faces.force(), i).norm();
+      EXPECT_EQ(size == 0.0, across);
+      EXPECT_EQ(faces.evaluate(turned(turn)).dissipated, 0.0) << "once";
     }
-    const CohesiveWork work = faces.evaluate(x);
-    EXPECT_EQ(CohesiveFaces::broken_length(faces.interfaces()[0]) > 3.9 * h, turn > 0.5);
-    EXPECT_EQ(work.stored == 0.0, turn > 0.5);
-  }
+}
+
+TEST(CohesiveFaces, that_are_open_without_contact_do_not_bound_the_step_by_how_far) {
+  const Cloud<2> cloud = two_faces(matching, matching);
+  CohesiveFaces faces = faces_of(cloud);
+  Fields<2> x = places(cloud);
+  const Field mass(x[0].size(), 1e-6);
+  const double closed = faces.frequency_bound(x, mass);
+  for (std::size_t i = 0; i < matching.size(); ++i) x[1][i] += 100 * h;
+  faces.evaluate(x);
+  EXPECT_NEAR(faces.frequency_bound(x, mass), closed, 1e-12 * closed);
 }
 
 TEST(CohesiveFaces, open_parts_bear_nothing_and_are_left_to_contact) {
