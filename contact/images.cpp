@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <array>
+#include <cassert>
 #include <cmath>
 
 namespace cnem::contact {
@@ -12,6 +13,7 @@ std::vector<Vec3> images(std::span<const Vec3> period, const Vec3& extent, doubl
   std::vector<Vec3> found{Vec3::Zero()};
   if (period.empty()) return found;
   const Vec3 reach = extent + Vec3::Constant(margin);
+  assert(period.size() <= 3);
   Eigen::Matrix<double, 3, Eigen::Dynamic> all(3, static_cast<Eigen::Index>(period.size()));
   for (std::size_t p = 0; p < period.size(); ++p) all.col(static_cast<Eigen::Index>(p)) = period[p];
   const Eigen::MatrixXd inverse = all.completeOrthogonalDecomposition().pseudoInverse();

@@ -1,13 +1,17 @@
 // Bodies that go on at their own images: what meets an image is what would meet a body that stood there.
 #include "contact/images.hpp"
+#include "contact/periods.hpp"
 #include "space_masses.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <map>
+#include <memory>
+#include <numbers>
 
 using namespace cnem;
 using namespace cnem::contact;
@@ -81,6 +85,21 @@ TEST(SpaceImages, are_all_that_come_near_and_each_has_its_opposite) {
   EXPECT_GT(wanted, 9U);
   for (std::size_t k = 1; k < found.size(); k += 2) EXPECT_EQ(found[k], -found[k + 1]);
   EXPECT_EQ(images({}, extent, margin).size(), 1U);
+}
+
+// Sides in pieces and cells of six sides give more periods than the body has.
+TEST(SpaceImages, periods_that_follow_from_others_add_none) {
+  const Vec3 a{1.0, 0.0, 0.0}, b{0.5, 0.5 * std::numbers::sqrt3, 0.0}, c{0.1, 0.2, 0.7};
+  std::vector<Vec3> period;
+  for (const Vec3& one : std::vector<Vec3>{a, a, b, -a, b - a, c, a - 2.0 * b + 3.0 * c, (1.0 + 1e-7) * a})
+    EXPECT_TRUE(add_period(period, one));
+  EXPECT_EQ(period, (std::vector<Vec3>{a, b, c}));
+  for (const Vec3& one : std::vector<Vec3>{0.5 * a, 1.5 * a, 0.5 * (a + b), a / 3.0 + b / 3.0 + c})
+    EXPECT_FALSE(add_period(period, one)) << one.transpose();
+  EXPECT_EQ(period.size(), 3U);
+  std::vector<Vec3> tilted{a};
+  EXPECT_TRUE(add_period(tilted, a + Vec3(0.0, 0.01, 0.0))) << "it is another direction";
+  EXPECT_EQ(tilted.size(), 2U);
 }
 
 // A block grows along x until it meets its own image on both sides: as one of an endless row of such blocks,
