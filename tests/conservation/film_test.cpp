@@ -196,11 +196,14 @@ TEST(Film, crumbs_that_are_broken_and_not_thin_move_as_one) {
   }
 }
 
-TEST(Film, whose_end_would_be_a_crumb_stays_whole) {
-  const Waisted b(0.1 * h, 2.0);
-  PassReport report;
-  b.cut(report, {.piece = 1_piece, .least_loop = 100});
-  EXPECT_EQ(report.films, 0);
+TEST(Film, whose_end_would_be_a_crumb_stays_whole_unless_it_is_next_to_nothing) {
+  for (const auto& [thickness, films] : {std::pair{0.1, 0}, {0.01, 1}}) {
+    const Waisted b(thickness * h, 2.0);
+    PassReport report;
+    const Resampling<2> change = b.cut(report, {.piece = 1_piece, .least_loop = 100});
+    EXPECT_EQ(report.films, films) << thickness;
+    EXPECT_EQ(testing::loops(change.cloud), 1 + films) << thickness;
+  }
 }
 
 TEST(Film, that_was_cut_goes_through_the_rest_of_the_pass) {
