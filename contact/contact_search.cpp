@@ -175,11 +175,13 @@ bool RigidContact<dim>::find_on_edges(const Pose<dim>& rest,
   return any;
 }
 
+template const Friction& RigidContact<2>::friction_of(const Contact<2>&, const ContactStep<2>&) const;
 template bool RigidContact<2>::stands(ToolIndex) const;
 template double RigidContact<2>::rubbing_area(BoundaryNodeIndex, BoundaryValues) const;
 template bool RigidContact<2>::find_on_faces(const Poses<2>&, const ContactStep<2>&);
 template bool RigidContact<2>::find_on_ridges(const Poses<2>&, const ContactStep<2>&);
 template bool RigidContact<2>::find_on_bodies(const Poses<2>&, const ContactStep<2>&);
+template const Friction& RigidContact<3>::friction_of(const Contact<3>&, const ContactStep<3>&) const;
 template bool RigidContact<3>::stands(ToolIndex) const;
 template double RigidContact<3>::rubbing_area(BoundaryNodeIndex, BoundaryValues) const;
 template bool RigidContact<3>::find_on_faces(const Poses<3>&, const ContactStep<3>&);

@@ -2,9 +2,11 @@
 
 #include "evaluate/material_point.hpp"
 
+#include <boost/math/tools/minima.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -94,16 +96,23 @@ std::optional<ShearZone> shear_zone(const plasticity::Material& material, const 
   PlaneBalance zone(material, cut);
   const double low = degree, high = 89.0 * degree - std::max(0.0, std::atan(cut.friction) - cut.rake);
   if (!(high > low)) return std::nullopt;
-  double from = low, at_from = zone.unbalance(low);
+  double from = low, at_from = zone.unbalance(low), to = high;
   const double at_high = zone.unbalance(high);
   // Metal that hardens strongly bears less than it has to at very small angles too, where its strain is that
-  // of no chip: the larger of two roots is the chip's.
+  // of no chip: the larger of two roots is the chip's. Two that are nearer than a degree lie about an angle
+  // of least unbalance.
+  std::array<double, 3> angle{high, high, high}, value{at_high, at_high, at_high}; // the last ones, falling
   for (double phi = high - degree; at_from >= 0.0 && phi > low; phi -= degree) {
-    from = phi;
-    at_from = zone.unbalance(phi);
+    angle = {angle[1], angle[2], phi};
+    value = {value[1], value[2], zone.unbalance(phi)};
+    from = phi, at_from = value[2], to = angle[1];
+    if (at_from < 0.0 || !(value[1] <= value[0] && value[1] <= value[2])) continue;
+    constexpr int bits = 20; // of the angle: the roots are found to their own precision
+    const auto [least, at_least] = boost::math::tools::brent_find_minima(
+        [&](double between) { return zone.unbalance(between); }, angle[2], angle[0], bits);
+    if (at_least < 0.0) from = least, at_from = at_least, to = angle[0];
   }
   if (!(at_from < 0.0 && at_high > 0.0)) return std::nullopt;
-  const double to = from == low ? high : from + degree;
   return zone.at_angle(
       root([&](double phi) { return zone.unbalance(phi); }, from, to, at_from, zone.unbalance(to)));
 }

@@ -279,18 +279,24 @@ bool Evaluator::evaluate(const std::vector<Eigen::VectorXd>& places) {
 }
 
 bool Evaluator::compare_left_out(const std::vector<Eigen::VectorXd>& places) {
-  if (!run(places, false)) return false;
-  for (const Eigen::VectorXd& place : places) {
+  std::vector<Eigen::VectorXd> good; // the start may be what was found, or have failed
+  for (const Eigen::VectorXd& place : places)
+    if (known(place)->good() && std::find(good.begin(), good.end(), place) == good.end())
+      good.push_back(place);
+  if (!run(good, false)) return false;
+  for (const Eigen::VectorXd& place : good) {
     Evaluation& evaluation = evaluations_.at(place_key(place));
     const std::size_t before = evaluation.curves.size();
-    if (!evaluation.good() || (before > 0 && !evaluation.curves.back().fitted)) continue;
     for (std::size_t t = 0; t < calibration_.targets.size(); ++t) {
       if (calibration_.targets[t].fitted()) continue;
+      const std::size_t whole = evaluation.curves.size();
       std::string failure;
       try {
         failure = collect(t, place, evaluation);
       } catch (const InputError& error) { failure = error.what(); }
-      if (!failure.empty()) evaluation.left_out_failures.push_back(failure);
+      if (failure.empty()) continue;
+      evaluation.left_out_failures.push_back(failure);
+      evaluation.curves.resize(whole); // none of the curves of a target that has failed
     }
     for (std::size_t c = before; c < evaluation.curves.size(); ++c) {
       evaluation.curves[c].fitted = false;

@@ -23,8 +23,8 @@ public:
   /// Evaluates all places, their runs in parallel. Returns false after SIGINT, SIGTERM or SIGHUP. Throws
   /// IoError.
   bool evaluate(const std::vector<Eigen::VectorXd>& places);
-  /// Puts the curves of targets that are left out of the search behind the others, at places that are
-  /// evaluated. Returns as evaluate() does.
+  /// Puts the curves of targets that are left out of the search behind the others, at those of the evaluated
+  /// places that went well. To be called once. Returns as evaluate() does.
   bool compare_left_out(const std::vector<Eigen::VectorXd>& places);
 
   std::size_t count() const { return evaluations_.size(); }

@@ -1,4 +1,5 @@
 #include "app/problem/bodies.hpp"
+#include "contact/periods.hpp"
 #include "core/error.hpp"
 #include "core/geometry/mates.hpp"
 #include "core/index.hpp"
@@ -185,7 +186,13 @@ contact::Repetition<3> repetition(const input::Case& input, const Cloud<3>& clou
     const auto pairs = matching_nodes(input, periodic, cloud);
     Vec3 sum = Vec3::Zero();
     for (const auto& [a, b] : pairs) sum += cloud.position[b] - cloud.position[a];
-    repeated.period.push_back(sum / static_cast<double>(pairs.size()));
+    const Vec3 period = sum / static_cast<double>(pairs.size());
+    if (!contact::add_period(repeated.period, period))
+      throw input.error(
+          fmt::format("periodic.{}.pieces", periodic.name),
+          fmt::format("found sides {:.6g}, {:.6g}, {:.6g} m apart, expected a sum of multiples of "
+                      "the periods before it, or one in a direction of its own",
+                      period.x(), period.y(), period.z()));
   }
   return repeated;
 }

@@ -34,7 +34,8 @@ template<int dim> std::array<PieceIndex, 2> sides_of(const input::Periodicity& s
 /// Faces of interfaces and periodic pieces; of a period the pieces of its two sides stand one after the
 /// other. Throws InputError when the nodes of two periodic pieces do not match.
 template<int dim> Pairs tied_pairs(const input::Case& input, const Cloud<dim>& cloud);
-/// What contact of a body with itself knows of periods. Throws as tied_pairs does.
+/// What contact of a body with itself knows of periods, of which those that follow from others are dropped.
+/// Throws as tied_pairs does, and where a period lies among others but is no sum of multiples of them.
 contact::Repetition<3> repetition(const input::Case& input, const Cloud<3>& cloud);
 /// Makes mates of their facets and of those of cracks. Throws as tied_pairs does.
 void pair_facets(const input::Case& input, Cloud<2>& cloud);

@@ -3,6 +3,7 @@
 #include "app/problem/bodies.hpp"
 #include "app/problem/registry.hpp"
 #include "app/space_adaptation.hpp"
+#include "core/error.hpp"
 #include "core/fields/vector_at.hpp"
 #include "input/case_reader.hpp"
 #include "tests/clouds.hpp"
@@ -14,6 +15,8 @@
 #include <functional>
 #include <gtest/gtest.h>
 #include <map>
+#include <string>
+#include <vector>
 
 namespace cnem::testing {
 namespace {
@@ -64,6 +67,67 @@ TEST(SpacePeriods, edges_and_corners_of_a_box_are_groups_of_four_and_eight) {
     if (grid == "true") {
       EXPECT_EQ(count.at(2), 12 + 8 + 6); // inner nodes of faces
     }
+  }
+}
+
+/// A profile of straight sides that are named in their order ("a", "b", …), with periods between some.
+input::Case periodic_profile(const std::vector<std::string>& corners, const std::string& periods) {
+  std::string path;
+  for (std::size_t k = 0; k < corners.size(); ++k)
+    path += fmt::format("{{ to = \"{} mm\", name = \"{}\" }}, ", corners[(k + 1) % corners.size()],
+                        char('a' + k));
+  return input::read_case_text(fmt::format(R"toml(
+[analysis]
+kinematics = "three-dimensional"
+[time]
+end = "1 us"
+[domain]
+material = "steel"
+outer.start = "{} mm"
+outer.path = [{}]
+extrude = {{ to = "0.2 mm" }}
+[cloud]
+spacing = "0.2 mm"
+[periodic]
+{}
+)toml",
+                                           corners.front(), path, periods) +
+                                   steel_304l,
+                               "case.toml");
+}
+
+contact::Repetition<3> repetition_of(const input::Case& input) {
+  return app::repetition(input, app::build<3>(input).problem.cloud);
+}
+
+TEST(SpacePeriods, a_side_in_two_pieces_repeats_once_and_six_sides_twice) {
+  const contact::Repetition<3> cut =
+      repetition_of(periodic_profile({"0 0", "1 0", "1 0.4", "1 0.8", "0 0.8", "0 0.4"},
+                                     "low.pieces = [\"f\", \"b\"]\nhigh.pieces = [\"e\", \"c\"]\n"
+                                     "z.pieces = [\"z-\", \"z+\"]"));
+  ASSERT_EQ(cut.period.size(), 2U);
+  EXPECT_LT((cut.period[0] - Vec3(1e-3, 0, 0)).norm(), 1e-12);
+  EXPECT_LT((cut.period[1] - Vec3(0, 0, 2e-4)).norm(), 1e-12);
+  EXPECT_EQ(cut.sides.size(), 6U);
+  const contact::Repetition<3> hexagon = repetition_of(periodic_profile(
+      {"1 0", "0.5 0.866025", "-0.5 0.866025", "-1 0", "-0.5 -0.866025", "0.5 -0.866025"},
+      "one.pieces = [\"d\", \"a\"]\ntwo.pieces = [\"e\", \"b\"]\nthree.pieces = [\"f\", \"c\"]"));
+  ASSERT_EQ(hexagon.period.size(), 2U);
+  EXPECT_LT((hexagon.period[0] - Vec3(1.5e-3, 0.866025e-3, 0)).norm(), 1e-12);
+  EXPECT_EQ(hexagon.sides.size(), 6U);
+}
+
+TEST(SpacePeriods, periods_that_cannot_be_together_are_told) {
+  const input::Case input =
+      periodic_profile({"0 0", "0.8 0", "0.8 0.4", "1.2 0.4", "1.2 0.8", "0 0.8", "0 0.4"},
+                       "low.pieces = [\"g\", \"b\"]\nupper.pieces = [\"f\", \"d\"]");
+  try {
+    app::build<3>(input);
+    ADD_FAILURE() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("'periodic.upper.pieces': found sides 0.0012, 0, 0 m apart"),
+              std::string::npos)
+        << error.what();
   }
 }
 

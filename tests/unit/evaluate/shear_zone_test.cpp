@@ -7,6 +7,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 namespace cnem::evaluate {
@@ -94,13 +95,13 @@ TEST(ShearZone, FrictionMakesChipsThickerAndHeatForcesSmaller) {
   EXPECT_LT(of(0.5, 5.0).Fc, of(0.5, 1.0).Fc);
 }
 
-/// At very small angles this metal hardens by more than its plane can bear, as n = 0.448 is approached:
-/// Oxley's equation has a second root there, beside that of the chip.
-TEST(ShearZone, HardeningThatMakesASecondRootKeepsTheChip) {
-  plasticity::Material aluminium;
-  aluminium.density = 2770.0;
-  aluminium.specific_heat = 875.0;
-  aluminium.conductivity = 120.0;
+/// At very small angles it hardens by more than its plane can bear, as n = 0.448 is approached: Oxley's
+/// equation has a second root there, beside that of the chip.
+plasticity::Material aluminium() {
+  plasticity::Material material;
+  material.density = 2770.0;
+  material.specific_heat = 875.0;
+  material.conductivity = 120.0;
   plasticity::JohnsonCook law;
   law.A = 411e6;
   law.B = 339.5e6;
@@ -110,11 +111,19 @@ TEST(ShearZone, HardeningThatMakesASecondRootKeepsTheChip) {
   law.rate0 = 1.0;
   law.T0 = 293.0;
   law.Tmelt = 775.0;
-  aluminium.hardening = plasticity::Hardening(law);
+  material.hardening = plasticity::Hardening(law);
+  return material;
+}
+
+std::optional<ShearZone> cut_aluminium(double friction) {
+  return shear_zone(aluminium(),
+                    {.feed = 0.1e-3, .speed = 1.0, .rake = 0.0, .friction = friction, .temperature = 293.0});
+}
+
+TEST(ShearZone, HardeningThatMakesASecondRootKeepsTheChip) {
   std::vector<double> angles;
   for (const double friction : {0.53, 0.54, 0.55, 0.56, 0.57}) {
-    const auto zone = shear_zone(
-        aluminium, {.feed = 0.1e-3, .speed = 1.0, .rake = 0.0, .friction = friction, .temperature = 293.0});
+    const auto zone = cut_aluminium(friction);
     ASSERT_TRUE(zone) << friction;
     angles.push_back(zone->shear_angle / one_degree);
   }
@@ -122,6 +131,20 @@ TEST(ShearZone, HardeningThatMakesASecondRootKeepsTheChip) {
     EXPECT_LT(angles[k], angles[k - 1]);
     EXPECT_NEAR(angles[k - 1] - angles[k], angles[0] - angles[1], 0.1) << "no jump to the other root";
   }
+}
+
+/// Two roots meet at a friction beyond which there is no chip, and near it the angle goes as the root of what
+/// is missing to it: however near they are the larger one is found.
+TEST(ShearZone, RootsThatMeetAreFoundUntilTheyDo) {
+  double some = 0.57, none = 2.0;
+  ASSERT_TRUE(cut_aluminium(some));
+  ASSERT_FALSE(cut_aluminium(none));
+  for (int k = 0; k < 60; ++k) (cut_aluminium(0.5 * (some + none)) ? some : none) = 0.5 * (some + none);
+  const auto angle = [&](double missing) { return cut_aluminium(some - missing)->shear_angle; };
+  const double last = angle(0.0);
+  EXPECT_NEAR((angle(4e-6) - last) / (angle(1e-6) - last), 2.0, 0.05);
+  EXPECT_NEAR((angle(4e-5) - last) / (angle(1e-5) - last), 2.0, 0.1);
+  EXPECT_LT(angle(1e-5) - last, 0.25 * one_degree) << "the other root is as far on the other side";
 }
 
 } // namespace

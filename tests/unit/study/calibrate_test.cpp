@@ -2,6 +2,8 @@
 // and what curves do not tell.
 #include "tests/unit/study/calibrate_fixture.hpp"
 
+#include <algorithm>
+
 namespace cnem::study {
 namespace {
 
@@ -214,6 +216,44 @@ TEST_F(Calibrate, what_went_well_is_better_than_what_failed) {
       << message;
   EXPECT_GT(result().at("failures").get<int>(), 0);
   EXPECT_GT(result().at("misfit").at("best").get<double>(), 2.0);
+}
+
+/// A target that is left out fails at what was found, which is the start too: its best constant is a bound.
+TEST_F(Calibrate, what_is_left_out_and_fails_is_told_once_and_counts_in_no_misfit) {
+  write_curve("slow", 1.0, 60, 400, 0.3, 0.02);
+  write("case.toml", std::string(block) +
+                         "[report.experiment.one]\nfile = \"press.csv\"\ncut_length = \"20 mm\"\n" +
+                         "[report.experiment.two]\nfile = \"far.csv\"\ncut_length = \"20 mm\"\n");
+  write("far.csv", "stroke[mm];force[kN]\n5;0\n6;12\n");
+  const auto warnings = [&](const std::string& target) {
+    force = true;
+    EXPECT_EQ(run("evaluations = 6\n" + constant("A", "\"100 MPa\"", "\"100 MPa\"", "\"800 MPa\"") +
+                  curve("slow", 1.0) + "[targets.press]\nweight = 0\n" + target),
+              0)
+        << message;
+    EXPECT_EQ(result().at("constants").at("A").at("value").get<double>(), 100e6);
+    EXPECT_EQ(result().at("curves").size(), 1U) << result().at("curves");
+    EXPECT_EQ(printed.find("misfit of what is left out"), std::string::npos) << printed;
+    const auto all = result().at("warnings").get<std::vector<std::string>>();
+    return std::count_if(all.begin(), all.end(), [](const std::string& one) {
+      return one.starts_with("left out, and not compared: press");
+    });
+  };
+  EXPECT_EQ(warnings("set = { \"time.end\" = \"2 us\", \"time.step.fixed\" = \"1 us\" }\n"), 1);
+  EXPECT_EQ(warnings(""), 1) << "one of its two curves is compared before the other fails";
+}
+
+/// The start melts at the temperature of the curve; a run that is left out would go well with its constants.
+TEST_F(Calibrate, what_is_left_out_is_not_run_where_the_start_failed) {
+  write_curve("slow", 1.0, 350, 400, 0.3, 0.02);
+  ASSERT_EQ(run("evaluations = 12\nstarts = 2\n" + constant("Tmelt", "\"400 K\"", "\"300 K\"", "\"1800 K\"") +
+                "[targets.slow]\nfile = \"slow.csv\"\nstrain = \"plastic\"\nrate = \"1 /s\"\n"
+                "temperature = \"293 K\"\nset = { \"materials.steel.plastic.T0\" = \"500 K\" }\n"
+                "[targets.press]\nweight = 0\n"),
+            0)
+      << message;
+  EXPECT_GT(result().at("failures").get<int>(), 0);
+  EXPECT_EQ(runs("results"), 1U) << "at what was found";
 }
 
 Calibration two_lines() {
