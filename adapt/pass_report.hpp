@@ -11,7 +11,6 @@ struct PassReport {
   int opened = 0;   ///< edges, in space facets, of these
   int films = 0;    ///< cuts among them at the waists of films
   int crumbs = 0;   ///< thin bodies of a few nodes that joined others
-  int mixed = 0;    ///< those whose matter was shared out among their nodes
   int folded = 0;   ///< boundary nodes at which the boundary turned back on itself or crossed
   int outside = 0;  ///< interior nodes found outside the boundary, or in another part
   int removed = 0, removed_boundary = 0;
@@ -23,7 +22,7 @@ struct PassReport {
   int crossings = 0;        ///< pairs of facets in space that crossed when the pass began
   double volume_change = 0; ///< of the domain: m³ per metre of thickness, or of the body
   bool changed() const {
-    return opened + crumbs + mixed + folded + outside + removed + removed_boundary + promoted + inserted +
+    return opened + crumbs + folded + outside + removed + removed_boundary + promoted + inserted +
                inserted_boundary + flipped + balanced >
            0;
   }

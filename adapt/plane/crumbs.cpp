@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <set>
 #include <span>
@@ -51,11 +50,6 @@ bool is_thin(const WorkingCloud& work, const std::vector<NodeIndex>& loop, doubl
   return twice > 0.0 && twice < thickness * length;
 }
 
-bool is_broken(const WorkingCloud& work, const std::vector<NodeIndex>& loop) {
-  return std::all_of(loop.begin(), loop.end(),
-                     [&](NodeIndex i) { return work.node().broken[index_of(i)] >= 1.0; });
-}
-
 /// The nearest node at the boundary of other matter of the same part that is to stay; none where all of it
 /// goes.
 NodeIndex host_of(const WorkingCloud& work, const std::vector<NodeIndex>& crumb,
@@ -94,36 +88,20 @@ WorkingCloud with_joined(const WorkingCloud& work, std::span<const Joining> join
   return joined;
 }
 
-/// Each node of a crumb gets a share of the matter of all: it moves as one from there on.
-void mix(WorkingCloud& work, const std::vector<NodeIndex>& crumb, PassReport& report) {
-  std::vector<double> mass;
-  for (const NodeIndex i : crumb) mass.push_back(work.node().mass[index_of(i)]);
-  for (std::size_t k = 1; k < crumb.size(); ++k) work.move_now(crumb[k], crumb.front(), 1.0);
-  double rest = std::accumulate(mass.begin(), mass.end(), 0.0);
-  for (std::size_t k = 1; k < crumb.size(); ++k) {
-    work.move_now(crumb.front(), crumb[k], mass[k] / rest);
-    rest -= mass[k];
-  }
-  ++report.mixed;
-}
-
 } // namespace
 
 void join_crumbs(WorkingCloud& work, Structure& structure, const SplitRules& rules, PassReport& report) {
   IndexedVector<NodeIndex, char> gone(work.size(), 0);
-  std::vector<std::vector<NodeIndex>> thin, alone;
+  std::vector<std::vector<NodeIndex>> thin;
   for (const NodeIndex start : work.nodes()) {
     if (!work.on_boundary(start)) continue;
     const std::vector<NodeIndex> loop = short_loop(work, start, index_of(rules.least_loop));
     if (loop.empty() || *std::min_element(loop.begin(), loop.end()) != start ||
         !is_body(work, structure, loop))
       continue;
-    if (is_thin(work, loop, rules.thinnest_film)) {
-      for (const NodeIndex i : loop) gone[i] = 1;
-      thin.push_back(loop);
-    } else if (is_broken(work, loop)) {
-      alone.push_back(loop);
-    }
+    if (!is_thin(work, loop, rules.thinnest_film)) continue;
+    for (const NodeIndex i : loop) gone[i] = 1;
+    thin.push_back(loop);
   }
   std::set<PieceIndex> elsewhere{rules.piece};
   for (const NodeIndex i : work.nodes())
@@ -137,9 +115,7 @@ void join_crumbs(WorkingCloud& work, Structure& structure, const SplitRules& rul
       continue;
     }
     for (const NodeIndex i : loop) gone[i] = 0;
-    if (is_broken(work, loop)) alone.push_back(loop);
   }
-  for (const std::vector<NodeIndex>& loop : alone) mix(work, loop, report);
   if (joining.empty()) return;
   WorkingCloud joined = with_joined(work, joining);
   std::optional<Structure> after = structure_if_valid(joined.cloud(), structure.space);

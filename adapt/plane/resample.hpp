@@ -100,9 +100,7 @@ void cut_films(WorkingCloud& work, Structure& structure, const SplitRules& rules
 /// Crumbs, bodies of at most SplitRules::least_loop nodes, none of them inside, and thinner than
 /// SplitRules::thinnest_film or a fiftieth of the spacing, go to the nearest node of the boundary of the same
 /// part, however far it is, corners or not: cells of theirs, pressed between tools and bodies, mean nothing.
-/// What has none, or the last facets of a piece, stays, and so does a body as small that is thicker; where
-/// all nodes are broken its matter is shared out evenly among them, so that it moves as one. Nothing is
-/// deleted.
+/// What has none, or the last facets of a piece, stays. Nothing is deleted.
 void join_crumbs(WorkingCloud& work, Structure& structure, const SplitRules& rules, PassReport& report);
 /// Facets shorter than a twentieth of the spacing between two nodes that stay, corners and ends of pieces, go
 /// with the one of them that bends the boundary less, but for the last facet of a piece: nothing else takes

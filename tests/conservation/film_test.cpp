@@ -160,42 +160,6 @@ TEST(Film, crumbs_of_other_matter_or_with_the_last_facets_of_a_piece_stay) {
   EXPECT_EQ(crumbs_of(b), 0);
 }
 
-/// Whether the last `count` nodes of the start end as equal shares of all their matter.
-bool is_shared_out(const Blank& b, const Resampling<2>& change, std::size_t count) {
-  const std::size_t nodes = b.node.mass.size();
-  double whole = 0.0;
-  for (std::size_t i = nodes - count; i < nodes; ++i) whole += b.node.mass[i];
-  for (std::size_t i = nodes - count; i < nodes; ++i) {
-    const std::size_t p = index_of(change.new_of[as<NodeIndex>(i)]);
-    const auto begin = static_cast<std::size_t>(change.parcels.begin[p]),
-               end = static_cast<std::size_t>(change.parcels.begin[p + 1]);
-    if (end - begin != count) return false;
-    for (std::size_t e = begin; e < end; ++e)
-      if (std::abs(change.parcels.weight[e] - b.node.mass[i] / whole) > 1e-14) return false;
-  }
-  return true;
-}
-
-TEST(Film, crumbs_that_are_broken_and_not_thin_move_as_one) {
-  for (const double broken : {0.9, 1.0}) {
-    Blank b = with_crumb(2.0 * h);
-    const std::size_t nodes = b.node.mass.size();
-    b.node.mass[nodes - 1] *= 3.0;
-    for (std::size_t i = nodes - 4; i < nodes; ++i) b.node.broken[i] = broken;
-    WorkingCloud work(b.cloud, b.node);
-    Structure structure = build_structure(b.cloud);
-    PassReport report;
-    join_crumbs(work, structure, {.thinnest_film = 0.03 * h}, report);
-    for (std::size_t i = nodes - 4; i < nodes; ++i)
-      EXPECT_NEAR(work.node().mass[i], b.node.mass[i], 1e-14 * b.node.mass[i]);
-    const Resampling<2> change = work.finish();
-    EXPECT_EQ(report.crumbs, 0);
-    EXPECT_EQ(report.changed(), broken == 1.0);
-    EXPECT_EQ(is_shared_out(b, change, 4), broken == 1.0);
-    expect_all_handed_on(change, nodes);
-  }
-}
-
 TEST(Film, whose_end_would_be_a_crumb_stays_whole_unless_it_is_next_to_nothing) {
   for (const auto& [thickness, films] : {std::pair{0.1, 0}, {0.01, 1}}) {
     const Waisted b(thickness * h, 2.0);

@@ -244,18 +244,6 @@ TEST_F(Calibrate, what_is_left_out_and_fails_is_told_once_and_counts_in_no_misfi
 }
 
 /// The start melts at the temperature of the curve; a run that is left out would go well with its constants.
-TEST_F(Calibrate, what_is_left_out_is_not_run_where_the_start_failed) {
-  write_curve("slow", 1.0, 350, 400, 0.3, 0.02);
-  ASSERT_EQ(run("evaluations = 12\nstarts = 2\n" + constant("Tmelt", "\"400 K\"", "\"300 K\"", "\"1800 K\"") +
-                "[targets.slow]\nfile = \"slow.csv\"\nstrain = \"plastic\"\nrate = \"1 /s\"\n"
-                "temperature = \"293 K\"\nset = { \"materials.steel.plastic.T0\" = \"500 K\" }\n"
-                "[targets.press]\nweight = 0\n"),
-            0)
-      << message;
-  EXPECT_GT(result().at("failures").get<int>(), 0);
-  EXPECT_EQ(runs("results"), 1U) << "at what was found";
-}
-
 Calibration two_lines() {
   Calibration calibration;
   calibration.title = "two\nlines";
