@@ -1,11 +1,11 @@
-// Crumbs: bodies too small to have a shape of their own, without a node inside: what is left of films that
-// were cut, thinner than films may be, and debris.
+// Crumbs: bodies of a few nodes, none of them inside, that are thinner than films may be or next to nothing:
+// what is left of films that were cut, and debris that was pressed flat.
+#include "adapt/plane/apply_valid.hpp"
 #include "adapt/plane/resample.hpp"
 #include "core/index.hpp"
 
 #include <algorithm>
 #include <limits>
-#include <optional>
 #include <set>
 #include <span>
 #include <utility>
@@ -36,9 +36,8 @@ bool is_body(const WorkingCloud& work, const Structure& structure, const std::ve
   });
 }
 
-/// Whether twice the area of a loop over its length is below `thickness` (m), or next to nothing.
-bool is_thin(const WorkingCloud& work, const std::vector<NodeIndex>& loop, double thickness) {
-  constexpr double nothing = 0.02; // of the spacing: the step goes with it
+/// Whether twice the area of a loop over its length is below what bodies may be.
+bool is_thin(const WorkingCloud& work, const std::vector<NodeIndex>& loop, const SplitRules& rules) {
   const auto& at = work.cloud().position;
   double twice = 0.0, length = 0.0;
   for (const NodeIndex i : loop) {
@@ -46,8 +45,9 @@ bool is_thin(const WorkingCloud& work, const std::vector<NodeIndex>& loop, doubl
     twice += cross(at[i] - at[loop.front()], at[next] - at[loop.front()]);
     length += (at[next] - at[i]).norm();
   }
-  thickness = std::max(thickness, nothing * work.node().size[index_of(loop.front())]);
-  return twice > 0.0 && twice < thickness * length;
+  const double thinnest =
+      std::max(rules.thinnest_film, rules.nothing * work.node().size[index_of(loop.front())]);
+  return twice > 0.0 && twice < thinnest * length;
 }
 
 /// The nearest node at the boundary of other matter of the same part that is to stay; none where all of it
@@ -74,18 +74,18 @@ struct Joining {
   NodeIndex host;
 };
 
-WorkingCloud with_joined(const WorkingCloud& work, std::span<const Joining> joining) {
-  WorkingCloud joined = work;
+/// Returns how many.
+int join(WorkingCloud& work, std::span<const Joining> joining) {
   IndexedVector<NodeIndex, char> gone(work.size(), 0);
   for (const auto& [crumb, host] : joining)
     for (const NodeIndex i : crumb) {
-      joined.move_now(i, host, 1.0);
-      joined.bypass(i);
+      work.move_now(i, host, 1.0);
+      work.bypass(i);
       gone[i] = 1;
     }
-  joined.drop(gone);
-  joined.refresh_facets();
-  return joined;
+  work.drop(gone);
+  work.refresh_facets();
+  return static_cast<int>(joining.size());
 }
 
 } // namespace
@@ -99,7 +99,7 @@ void join_crumbs(WorkingCloud& work, Structure& structure, const SplitRules& rul
     if (loop.empty() || *std::min_element(loop.begin(), loop.end()) != start ||
         !is_body(work, structure, loop))
       continue;
-    if (!is_thin(work, loop, rules.thinnest_film)) continue;
+    if (!is_thin(work, loop, rules)) continue;
     for (const NodeIndex i : loop) gone[i] = 1;
     thin.push_back(loop);
   }
@@ -116,21 +116,7 @@ void join_crumbs(WorkingCloud& work, Structure& structure, const SplitRules& rul
     }
     for (const NodeIndex i : loop) gone[i] = 0;
   }
-  if (joining.empty()) return;
-  WorkingCloud joined = with_joined(work, joining);
-  std::optional<Structure> after = structure_if_valid(joined.cloud(), structure.space);
-  if (!after) { // those that may alone
-    ++report.undone;
-    std::erase_if(joining, [&](const Joining& one) {
-      return !structure_if_valid(with_joined(work, std::span(&one, 1)).cloud(), structure.space);
-    });
-    joined = with_joined(work, joining);
-    after = structure_if_valid(joined.cloud(), structure.space);
-    if (!after) return;
-  }
-  work = std::move(joined);
-  structure = std::move(*after);
-  report.crumbs += static_cast<int>(joining.size());
+  report.crumbs += apply_valid(work, structure, std::move(joining), join, report);
 }
 
 } // namespace cnem::adapt

@@ -90,16 +90,14 @@ bool cut_at(WorkingCloud& work, Structure& structure, const Waist& waist, const 
 } // namespace
 
 void cut_films(WorkingCloud& work, Structure& structure, const SplitRules& rules, PassReport& report) {
-  constexpr int most = 8; // cuts in one pass
-  // next to nothing, of the spacing: chords are about to cross, and what comes off may be a crumb
-  constexpr double nothing = 0.02;
-  constexpr int smallest = 2; // nodes beside the two of the cut
+  constexpr int most = 8;     // cuts in one pass
+  constexpr int smallest = 2; // nodes of a crumb, besides the two of the cut
   for (int k = 0; k < most; ++k) {
     const BoundaryLoops loops(work);
     const std::vector<Waist> found = waists(work, structure, rules);
     const auto cut = std::find_if(found.begin(), found.end(), [&](const Waist& waist) {
       const double length = waist.thickness * work.size_between(waist.node, waist.start);
-      const int least = waist.thickness < nothing ? smallest : rules.least_loop;
+      const int least = waist.thickness < rules.nothing ? smallest : rules.least_loop;
       return loops.parts(waist.node, waist.start, rules.part * length, least) &&
              cut_at(work, structure, waist, rules);
     });

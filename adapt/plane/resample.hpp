@@ -49,12 +49,13 @@ struct SplitRules {
   double smoothed = 0.3;      ///< how far nodes may be moved to straighten a cut
   double film = 0.15;         ///< broken matter thinner than this between two faces is cut at its waist
   double thinnest_film = 0.0; ///< m, thinner ones are cut though they are whole
-  bool cracks = false;        ///< also open what is broken from the boundary to a tip inside
-  double first = 4.0;         ///< least length of a crack
-  double advance = 2.0;       ///< and by how much it grows
-  double slender = 2.0;       ///< least length of a crack over the mean width of what is broken
-  double from_lip = 4.0;      ///< what a cut costs that begins or ends on such a face, and not at a tip
-  double apart = 5.0;         ///< least distance of its mouth from faces that are there
+  double nothing = 0.02; ///< thinner than this faces are about to cross: crumbs may come off, and join others
+  bool cracks = false;   ///< also open what is broken from the boundary to a tip inside
+  double first = 4.0;    ///< least length of a crack
+  double advance = 2.0;  ///< and by how much it grows
+  double slender = 2.0;  ///< least length of a crack over the mean width of what is broken
+  double from_lip = 4.0; ///< what a cut costs that begins or ends on such a face, and not at a tip
+  double apart = 5.0;    ///< least distance of its mouth from faces that are there
 };
 
 struct ResampleRules {

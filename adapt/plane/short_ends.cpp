@@ -1,10 +1,10 @@
 // Short facets between two nodes that stay: what cuts and flow have left of a piece of the boundary.
+#include "adapt/plane/apply_valid.hpp"
 #include "adapt/plane/resample.hpp"
 #include "core/index.hpp"
 
 #include <cmath>
 #include <map>
-#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -46,7 +46,6 @@ int take_out(WorkingCloud& work, std::span<const End> ends) {
     gone[node] = 1;
     ++count;
   }
-  if (count == 0) return 0;
   work.drop(gone);
   work.refresh_facets();
   return count;
@@ -69,24 +68,7 @@ void join_ends(WorkingCloud& work, Structure& structure, PassReport& report) {
         off_line(at(a), at(work.previous(a)), at(b)) <= off_line(at(b), at(a), at(work.next(b)));
     ends.push_back(first ? End{a, b} : End{b, a});
   }
-  const auto valid_without = [&](std::span<const End> some, WorkingCloud& joined, int& count) {
-    joined = work;
-    count = take_out(joined, some);
-    return count > 0 ? structure_if_valid(joined.cloud(), structure.space) : std::nullopt;
-  };
-  WorkingCloud joined = work;
-  int count = 0;
-  std::optional<Structure> after = valid_without(ends, joined, count);
-  if (count == 0) return;
-  if (!after) { // those that may go alone
-    ++report.undone;
-    std::erase_if(ends, [&](const End& end) { return !valid_without(std::span(&end, 1), joined, count); });
-    after = valid_without(ends, joined, count);
-    if (!after) return;
-  }
-  work = std::move(joined);
-  structure = std::move(*after);
-  report.removed_boundary += count;
+  report.removed_boundary += apply_valid(work, structure, std::move(ends), take_out, report);
 }
 
 } // namespace cnem::adapt

@@ -136,6 +136,20 @@ TEST(Cohesive, new_nodes_change_little) {
     EXPECT_NEAR(energy(resampled, name), energy(given, name), 0.05 * energy(given, name)) << name;
 }
 
+/// Bonds so stiff that they would take the step down to a third of what cells bear.
+TEST(Cohesive, scaling_of_inertia_keeps_the_step_that_is_wanted_beside_stiff_bonds) {
+  const std::string stiff = blocks + pulled_off;
+  const auto steps = [&](const std::string& scaling) {
+    return finish(input::read_case_text(stiff, "case.toml",
+                                        {"time.end=\"1 us\"", scaling,
+                                         "domain.interfaces.joint.cohesive.stiffness=\"2e17 Pa/m\""}))
+        .status.steps;
+  };
+  constexpr double wanted = 1e-6 / 12e-9;
+  EXPECT_LT(static_cast<double>(steps("time.mass_scaling.step=\"12 ns\"")), 1.1 * wanted);
+  EXPECT_GT(static_cast<double>(steps("time.mass_scaling.factor=1")), 2.0 * wanted);
+}
+
 TEST(Cohesive, without_contact_compression_is_borne_for_good) {
   const FinishedRun done = finish(input::read_case_text(blocks + sheared_off, "case.toml", {"contact={}"}));
   EXPECT_NEAR(done.of("cohesive.joint.broken").back(), std::hypot(4e-3, 0.2e-3), 1e-9);
