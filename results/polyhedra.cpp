@@ -3,6 +3,7 @@
 #include "core/fields/vector_at.hpp"
 #include "core/geometry/facets.hpp"
 #include "core/index.hpp"
+#include "voronoi/space/median_cells.hpp"
 #include "voronoi/space/voronoi_cells.hpp"
 
 #include <algorithm>
@@ -120,7 +121,7 @@ Polyhedra of_voronoi(const Cloud<3>& cloud, std::span<const Corner> tetrahedra, 
   }
   for (const CloudFacetIndex f : cloud.facets.indices())
     point.push_back(
-        maker.add_point(point_on<3>(corners_of<3>(cloud.facets[f], position), cells.points.on_facet[f])));
+        maker.add_point(point_on<3>(corners_of<3>(cloud.facets[f], position), voronoi::facet_centroid)));
   std::vector<std::int32_t> polygon;
   for (const EdgeIndex e : cells.rings.end.indices()) {
     const auto ring = cells.rings.of(e);

@@ -7,11 +7,11 @@
 namespace cnem::voronoi {
 
 /// Of a tetrahedron the circumcentre, or where the straight way to it from the centroid leaves the body; of a
-/// facet the circumcentre, or the middle of the longest edge of an obtuse one. Cells close and fill the body
-/// wherever the points are.
+/// facet the centroid: with circumcentres neighbours on an edge of the body have shares that differ by a
+/// factor, and metal that spreads there moves them out and in in turn. Cells close and fill the body wherever
+/// the points are.
 struct DualPoints {
-  IndexedVector<DualPointIndex, Vec<3>> place;                    ///< m
-  IndexedVector<CloudFacetIndex, std::array<double, 2>> on_facet; ///< as in BoundaryPart::place
+  IndexedVector<DualPointIndex, Vec<3>> place;      ///< m
   IndexedVector<SimplexIndex, SimplexIndex> holder; ///< the tetrahedron that the point of each lies in
   IndexedVector<SimplexIndex, CloudFacetIndex>
       wall; ///< the facet that hides the circumcentre; none: none does
@@ -20,8 +20,7 @@ struct DualPoints {
 /// O(N).
 DualPoints dual_points(const Cloud<3>& cloud, const Tetrahedra& mesh, const Circumspheres& spheres);
 
-/// Takes a point half of the way to the centroid of its tetrahedron or facet.
+/// Takes the point of a tetrahedron half of the way to its centroid.
 void draw_in(const Cloud<3>& cloud, const Tetrahedra& mesh, DualPoints& points, SimplexIndex tetrahedron);
-void draw_in(const Cloud<3>& cloud, const Tetrahedra& mesh, DualPoints& points, CloudFacetIndex facet);
 
 } // namespace cnem::voronoi

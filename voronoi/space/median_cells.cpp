@@ -6,26 +6,19 @@
 #include <algorithm>
 
 namespace cnem::voronoi {
-namespace {
-
-using Place = std::array<double, 2>;
-
-Place between(const Place& a, const Place& b) { return {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])}; }
-
-void add_boundary(const Cloud<3>& cloud, CellComplex<3>& cells) {
-  constexpr Place corner[3] = {{0, 0}, {1, 0}, {0, 1}}, centre{1.0 / 3.0, 1.0 / 3.0};
-  cells.boundary.reserve(6 * cloud.facets.size());
+IndexedVector<PartIndex, BoundaryPart<3>> thirds_of_facets(const Cloud<3>& cloud) {
+  using Place = std::array<double, 2>;
+  constexpr Place corner[3] = {{0, 0}, {1, 0}, {0, 1}}, middle[3] = {{0.5, 0}, {0.5, 0.5}, {0, 0.5}};
+  IndexedVector<PartIndex, BoundaryPart<3>> parts;
+  parts.reserve(6 * cloud.facets.size());
   for (const CloudFacetIndex f : cloud.facets.indices())
     for (std::size_t a = 0; a < 3; ++a) {
       const NodeIndex node = cloud.facets[f].node[a];
-      const Place next = between(corner[a], corner[(a + 1) % 3]),
-                  last = between(corner[a], corner[(a + 2) % 3]);
-      cells.boundary.push_back({node, f, {corner[a], next, centre}});
-      cells.boundary.push_back({node, f, {corner[a], centre, last}});
+      parts.push_back({node, f, {corner[a], middle[a], facet_centroid}});
+      parts.push_back({node, f, {corner[a], facet_centroid, middle[(a + 2) % 3]}});
     }
+  return parts;
 }
-
-} // namespace
 
 CellComplex<3> median_cells(const Cloud<3>& cloud, std::span<const Simplex<3>> tetrahedra) {
   CellComplex<3> cells;
@@ -51,7 +44,7 @@ CellComplex<3> median_cells(const Cloud<3>& cloud, std::span<const Simplex<3>> t
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   cells.neighbours = other_ends(cloud.position.size(), edges);
-  add_boundary(cloud, cells);
+  cells.boundary = thirds_of_facets(cloud);
   return cells;
 }
 

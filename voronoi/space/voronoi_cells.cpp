@@ -4,6 +4,7 @@
 #include "core/geometry/facets.hpp"
 #include "core/geometry/place_text.hpp"
 #include "core/machine/parallel.hpp"
+#include "voronoi/space/median_cells.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -79,11 +80,6 @@ bool draw_in_small_cells(const Cloud<3>& cloud, const Tetrahedra& mesh, const Fi
       draw_in(cloud, mesh, cells.points, t);
       drawn[dual_point_of(t)] = 1;
     }
-  for (const CloudFacetIndex f : cloud.facets.indices())
-    if (std::any_of(cloud.facets[f].node.begin(), cloud.facets[f].node.end(), is_small)) {
-      draw_in(cloud, mesh, cells.points, f);
-      drawn[dual_point_of(mesh, f)] = 1;
-    }
   for (const EdgeIndex e : cells.rings.end.indices()) {
     const auto ring = cells.rings.of(e);
     if (std::any_of(ring.begin(), ring.end(), [&](DualPointIndex p) { return drawn[p] != 0; }))
@@ -91,19 +87,6 @@ bool draw_in_small_cells(const Cloud<3>& cloud, const Tetrahedra& mesh, const Fi
   }
   set_volumes(cloud, cells);
   return true;
-}
-
-void add_boundary(const Cloud<3>& cloud, VoronoiCells& cells) {
-  using OnFacet = std::array<double, 2>;
-  constexpr OnFacet corner[3] = {{0, 0}, {1, 0}, {0, 1}}, middle[3] = {{0.5, 0}, {0.5, 0.5}, {0, 0.5}};
-  cells.boundary.reserve(6 * cloud.facets.size());
-  for (const CloudFacetIndex f : cloud.facets.indices())
-    for (std::size_t a = 0; a < 3; ++a) {
-      const NodeIndex node = cloud.facets[f].node[a];
-      const OnFacet& centre = cells.points.on_facet[f];
-      cells.boundary.push_back({node, f, {corner[a], middle[a], centre}});
-      cells.boundary.push_back({node, f, {corner[a], centre, middle[(a + 2) % 3]}});
-    }
 }
 
 /// The other ends of the edges of each cell. An edge that has several rings counts once.
@@ -148,7 +131,7 @@ VoronoiCells voronoi_cells(const Cloud<3>& cloud, const Tetrahedra& mesh, const 
       throw GeometryError(
           "cells stay without volume wherever their points are put: nodes are on one plane to "
           "rounding");
-  add_boundary(cloud, cells);
+  cells.boundary = thirds_of_facets(cloud);
   return cells;
 }
 
