@@ -48,16 +48,15 @@ Approximation<3> CnemInSpace::rebuild(const Cloud<3>& cloud) {
   } else {
     auto spheres = voronoi::circumspheres(cloud, mesh);
     voronoi::VoronoiCells cells = voronoi::voronoi_cells(cloud, mesh, spheres);
+    cells.edges = {};
     FacetMeans facets =
-        facet_means(cloud, mesh, spheres, cells, options_.functions,
+        facet_means(cloud, mesh, std::move(spheres), cells, options_.functions,
                     options_.gauss_points == 1 ? FacetRule::one_point : FacetRule::one_a_triangle);
     result.cells = voronoi::simplex_geometry<3>(cloud, mesh.node);
     mesh = {};
-    spheres = {};
     cells.points = {};
     cells.rings = {};
     cells.normal = {};
-    cells.edges = {};
     const auto of_cell = group_by_cell<FaceIndex>(
         cloud.position.size(),
         facets.facet.size(), [&](std::size_t f) -> const auto& { return facets.facet[f].cell; });

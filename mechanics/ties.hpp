@@ -20,7 +20,7 @@ namespace cnem {
 /// two sides of a bonded interface coincide to the last bit.
 ///
 /// Tying never shortens the stable step: the largest eigenvalue of tied matrices lies below that of the free
-/// ones.
+/// ones (mechanics/stable_step.hpp has a bound on it).
 template<int dim> class Ties {
 public:
   Ties() = default;
