@@ -113,7 +113,7 @@ FacetMeans facet_means(const Cloud<3>& cloud, const voronoi::Tetrahedra& mesh, v
       for (std::size_t k = 0; k < triangles(e); ++k) items.push_back({e, as<std::int32_t>(k)});
   }
 
-  const voronoi::FunctionMesh function_mesh(cloud, mesh, spheres);
+  const voronoi::FunctionMesh function_mesh(cloud, mesh, spheres, functions);
   spheres = {};
   std::vector<Interface<3>> facet(items.size());
   constexpr std::size_t size = FaceMeans::block_size;

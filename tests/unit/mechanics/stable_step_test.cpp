@@ -152,16 +152,14 @@ TEST(SpectralBound, of_tied_nodes_holds_and_is_nearer_than_that_of_free_ones) {
   const double highest =
       squared_frequencies(tied(linearise(approximation, strip.cloud, material, 0.0), strip.ties)).maxCoeff();
 
-              highest);
-              EXPECT_GE(bound, highest);
-              EXPECT_GE(rows, bound);
-              EXPECT_LT(bound, 0.8 * free);
-              EXPECT_GE(std::sqrt(highest / bound), 0.6);
-              constexpr double alpha = 0.05; // of the edge defect
-              EXPECT_GE(bound * (1.0 + alpha),
-                        squared_frequencies(
-                            tied(linearise(approximation, strip.cloud, material, alpha), strip.ties))
-                            .maxCoeff());
+  EXPECT_GE(bound, highest);
+  EXPECT_GE(rows, bound);
+  EXPECT_LT(bound, 0.8 * free);
+  EXPECT_GE(std::sqrt(highest / bound), 0.6);
+  constexpr double alpha = 0.05; // of the edge defect
+  EXPECT_GE(bound * (1.0 + alpha),
+            squared_frequencies(tied(linearise(approximation, strip.cloud, material, alpha), strip.ties))
+                .maxCoeff());
 }
 
 // Nearly at the bound, with the edge defect, all frequencies shaken.
