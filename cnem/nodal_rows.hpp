@@ -51,14 +51,17 @@ private:
   std::vector<Entry> entry_;
 };
 
-/// Fills the rows of nodal operators on whose nodes, volumes and, of revolution, radii are known, and builds
-/// the transpose: sum(i, row) adds to the row of node i and gives what its gradients are divided by.
-template<int dim, class Sum> void fill_rows(DiscreteOperators<dim>& op, Sum&& sum) {
-  struct Block {
-    std::vector<NodeIndex> node;
-    std::array<std::vector<double>, dim> gradient;
-    std::vector<double> hoop;
-  };
+/// The rows of a block of nodes.
+template<int dim> struct RowBlock {
+  std::vector<NodeIndex> node;
+  std::array<std::vector<double>, dim> gradient;
+  std::vector<double> hoop;
+};
+
+/// Sums up the rows of nodal operators on whose nodes, volumes and, of revolution, radii are known: sum(i,
+/// row) adds to the row of node i and gives what its gradients are divided by.
+template<int dim, class Sum> std::vector<RowBlock<dim>> sum_rows(DiscreteOperators<dim>& op, Sum&& sum) {
+  using Block = RowBlock<dim>;
   const auto nodes = index_of(op.nodes);
   const bool revolution = op.of_revolution();
   op.row_begin.assign(nodes + 1, 0);
@@ -92,7 +95,13 @@ template<int dim, class Sum> void fill_rows(DiscreteOperators<dim>& op, Sum&& su
       });
   }
   failure.rethrow();
+  return list;
+}
 
+/// Puts the rows one after another and builds the transpose. Each block is let go of as soon as it is copied.
+template<int dim> void join_rows(DiscreteOperators<dim>& op, std::vector<RowBlock<dim>> list) {
+  const auto nodes = index_of(op.nodes);
+  const bool revolution = op.of_revolution();
   std::vector<std::int32_t> offset(list.size() + 1, 0);
   for (std::size_t k = 0; k < list.size(); ++k)
     offset[k + 1] = offset[k] + static_cast<std::int32_t>(list[k].node.size());
@@ -107,8 +116,14 @@ template<int dim, class Sum> void fill_rows(DiscreteOperators<dim>& op, Sum&& su
     for (std::size_t d = 0; d < dim; ++d)
       std::copy(list[k].gradient[d].begin(), list[k].gradient[d].end(), op.gradient[d].begin() + offset[k]);
     std::copy(list[k].hoop.begin(), list[k].hoop.end(), op.hoop.begin() + (revolution ? offset[k] : 0));
+    list[k] = {};
   }
   op.build_transpose();
+}
+
+/// Both.
+template<int dim, class Sum> void fill_rows(DiscreteOperators<dim>& op, Sum&& sum) {
+  join_rows(op, sum_rows(op, sum));
 }
 
 } // namespace cnem::scni

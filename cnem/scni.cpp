@@ -10,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 namespace cnem::scni {
 
 void check_gauss_points(int gauss_points) {
@@ -34,25 +36,26 @@ Approximation<2> Cnem::rebuild(const Cloud<2>& cloud) {
         cloud, diagram,
         face_means(cloud, diagram.cells, *options_.support, options_.gauss_points, options_.space),
         Functions::sibson, options_.space);
-  const FaceMeans means = face_means(cloud, diagram.triangulation, diagram.circles, diagram.cells,
-                                     options_.functions, options_.gauss_points, options_.space);
-  return integrate_at_nodes(cloud, diagram, means, options_.functions, options_.space);
+  return integrate_at_nodes(cloud, diagram,
+                            face_means(cloud, diagram.triangulation, diagram.circles, diagram.cells,
+                                       options_.functions, options_.gauss_points, options_.space),
+                            options_.functions, options_.space);
 }
 
 Diagram::Diagram(const Cloud<2>& cloud)
     : triangulation(voronoi::triangulate(cloud)), circles(voronoi::circumcircles(cloud, triangulation)),
       cells(voronoi::constrained_cells(cloud, triangulation, circles)) {}
 
-Approximation<2> integrate_at_nodes(const Cloud<2>& cloud, const Diagram& diagram, const FaceMeans& means,
+Approximation<2> integrate_at_nodes(const Cloud<2>& cloud, const Diagram& diagram, FaceMeans means,
                                     Functions at_centroids, Space space) {
   const auto& [triangulation, circles, cells] = diagram;
   const auto faces = faces_of_cells(cells);
   Approximation<2> result;
   if (space == Space::revolution) {
     const auto values = centroid_values(cloud, triangulation, circles, cells, at_centroids);
-    result.mechanics = smoothed_gradients<2>(cloud, cells, faces, means, &values);
+    result.mechanics = smoothed_gradients<2>(cloud, cells, faces, std::move(means), &values);
   } else {
-    result.mechanics = smoothed_gradients<2>(cloud, cells, faces, means);
+    result.mechanics = smoothed_gradients<2>(cloud, cells, faces, std::move(means));
   }
   result.conduction = voronoi::linear_simplices<2>(cloud, triangulation.node, space);
   result.links = stabilisation_links<2>(cloud, cells, faces);

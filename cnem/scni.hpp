@@ -38,7 +38,7 @@ struct Diagram {
 
 /// Everything that nodal integration on the cells of a diagram makes of the means of functions on their inner
 /// faces (face_means); of revolution also of functions at the centroids of cells.
-Approximation<2> integrate_at_nodes(const Cloud<2>& cloud, const Diagram& diagram, const FaceMeans& means,
+Approximation<2> integrate_at_nodes(const Cloud<2>& cloud, const Diagram& diagram, FaceMeans means,
                                     Functions at_centroids, Space space);
 
 /// C-NEM: rows are nodes with their constrained Voronoi cells, N is the identity, and

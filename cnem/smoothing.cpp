@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cassert>
 #include <numbers>
+#include <utility>
 
 namespace cnem::scni {
 namespace {
@@ -25,7 +26,7 @@ std::array<double, 2> revolved_shares(const BoundaryPart<2>& part, const std::ar
 
 template<int dim, class Face>
 DiscreteOperators<dim> smoothed_gradients(const Cloud<dim>& cloud, const FacesOfCells<dim, Face>& cells,
-                                          const FaceMeans& means, const CentroidValues* revolution) {
+                                          FaceMeans means, const CentroidValues* revolution) {
   const auto nodes = index_of(cloud.nodes());
   assert(cells.volume.size() == nodes && cells.of_cell.begin.size() == nodes + 1);
   const auto boundary = group_by_cell<PartIndex>(
@@ -46,7 +47,7 @@ DiscreteOperators<dim> smoothed_gradients(const Cloud<dim>& cloud, const FacesOf
       if (revolution) return revolved_shares(part, corner);
     return part.shares();
   };
-  fill_rows(op, [&](std::size_t i, RowAccumulator<dim>& row) {
+  auto rows = sum_rows(op, [&](std::size_t i, RowAccumulator<dim>& row) {
     for (const FaceIndex f : cells.of_cell.of(i)) {
       const Face& face = cells.inner[index_of(f)];
       const double sign = index_of(face.cell[0]) == i ? 1.0 : -1.0;
@@ -71,6 +72,8 @@ DiscreteOperators<dim> smoothed_gradients(const Cloud<dim>& cloud, const FacesOf
     }
     return cells.volume[i] * op.radius[i];
   });
+  means = FaceMeans({}); // they hold more than the rows
+  join_rows(op, std::move(rows));
   assert(rows_are_complete(op) && reproduces_linear_fields(op, cloud.position));
   return op;
 }
@@ -99,11 +102,11 @@ StabilisationLinks<dim> stabilisation_links(const Cloud<dim>& cloud, const Faces
 }
 
 template DiscreteOperators<2> smoothed_gradients(const Cloud<2>&, const FacesOfCells<2, InnerFace<2>>&,
-                                                 const FaceMeans&, const CentroidValues*);
+                                                 FaceMeans, const CentroidValues*);
 template DiscreteOperators<3> smoothed_gradients(const Cloud<3>&, const FacesOfCells<3, InnerFace<3>>&,
-                                                 const FaceMeans&, const CentroidValues*);
+                                                 FaceMeans, const CentroidValues*);
 template DiscreteOperators<3> smoothed_gradients(const Cloud<3>&, const FacesOfCells<3, Interface<3>>&,
-                                                 const FaceMeans&, const CentroidValues*);
+                                                 FaceMeans, const CentroidValues*);
 template StabilisationLinks<2> stabilisation_links(const Cloud<2>&, const FacesOfCells<2, InnerFace<2>>&);
 template StabilisationLinks<3> stabilisation_links(const Cloud<3>&, const FacesOfCells<3, InnerFace<3>>&);
 template StabilisationLinks<3> stabilisation_links(const Cloud<3>&, const FacesOfCells<3, Interface<3>>&);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 
 namespace cnem::scni {
 
@@ -39,12 +40,12 @@ FacesOfCells<dim, InnerFace<dim>> faces_between(const CellComplex<dim>& cells,
 /// body of revolution (core/operators/operators.hpp).
 template<int dim, class Face>
 DiscreteOperators<dim> smoothed_gradients(const Cloud<dim>& cloud, const FacesOfCells<dim, Face>& cells,
-                                          const FaceMeans& means, const CentroidValues* revolution = nullptr);
+                                          FaceMeans means, const CentroidValues* revolution = nullptr);
 template<int dim>
 DiscreteOperators<dim> smoothed_gradients(const Cloud<dim>& cloud, const CellComplex<dim>& cells,
-                                          const CellLists<FaceIndex>& faces, const FaceMeans& means,
+                                          const CellLists<FaceIndex>& faces, FaceMeans means,
                                           const CentroidValues* revolution = nullptr) {
-  return smoothed_gradients(cloud, faces_between(cells, faces), means, revolution);
+  return smoothed_gradients(cloud, faces_between(cells, faces), std::move(means), revolution);
 }
 
 /// The weight of a link: area of the faces between two cells over the distance d of their nodes, clamped to

@@ -8,6 +8,7 @@
 #include "voronoi/space/triangulate.hpp"
 
 #include <fmt/format.h>
+#include <utility>
 
 namespace cnem::scni {
 
@@ -30,10 +31,11 @@ std::string CnemInSpace::name() const {
   return "cnem_linear";
 }
 
+/// What each part alone reads is let go of before the next: beside the approximation that this one follows,
+/// all together would hold twice as much.
 Approximation<3> CnemInSpace::rebuild(const Cloud<3>& cloud) {
-  const voronoi::Tetrahedra mesh = options_.tetrahedra.empty()
-                                       ? voronoi::triangulate(cloud)
-                                       : voronoi::connected(cloud, options_.tetrahedra);
+  voronoi::Tetrahedra mesh = options_.tetrahedra.empty() ? voronoi::triangulate(cloud)
+                                                         : voronoi::connected(cloud, options_.tetrahedra);
   Approximation<3> result;
   result.conduction =
       voronoi::linear_tetrahedra(cloud, mesh); // before the rest: it takes most while it is made
@@ -42,23 +44,29 @@ Approximation<3> CnemInSpace::rebuild(const Cloud<3>& cloud) {
   if (options_.cells == CellKind::median) {
     result.mechanics = median_gradients(cloud, mesh);
     result.links = median_links(cloud, result.mechanics);
+    result.cells = voronoi::simplex_geometry<3>(cloud, mesh.node);
   } else {
-    const auto spheres = voronoi::circumspheres(cloud, mesh);
-    const auto cells = voronoi::voronoi_cells(cloud, mesh, spheres);
-    const FacetMeans facets =
-        facet_means(cloud, mesh, spheres, cells, options_.functions,
+    auto spheres = voronoi::circumspheres(cloud, mesh);
+    voronoi::VoronoiCells cells = voronoi::voronoi_cells(cloud, mesh, spheres);
+    cells.edges = {};
+    FacetMeans facets =
+        facet_means(cloud, mesh, std::move(spheres), cells, options_.functions,
                     options_.gauss_points == 1 ? FacetRule::one_point : FacetRule::one_a_triangle);
+    result.cells = voronoi::simplex_geometry<3>(cloud, mesh.node);
+    mesh = {};
+    cells.points = {};
+    cells.rings = {};
+    cells.normal = {};
     const auto of_cell = group_by_cell<FaceIndex>(
         cloud.position.size(),
         facets.facet.size(), [&](std::size_t f) -> const auto& { return facets.facet[f].cell; });
     const FacesOfCells<3, Interface<3>> faces{cells.volume, facets.facet, of_cell, cells.boundary,
                                               cells.neighbours};
-    result.mechanics = smoothed_gradients(cloud, faces, facets.means);
     result.links = stabilisation_links(cloud, faces);
+    result.mechanics = smoothed_gradients(cloud, faces, std::move(facets.means));
     fallbacks_ = facets.fallbacks;
   }
   result.node_volume = result.mechanics.volume;
-  result.cells = voronoi::simplex_geometry<3>(cloud, mesh.node);
   result.cells.between_points = true;
   return result;
 }

@@ -89,9 +89,8 @@ struct FunctionsAt {
 
 } // namespace
 
-FacetMeans facet_means(const Cloud<3>& cloud, const voronoi::Tetrahedra& mesh,
-                       const voronoi::Circumspheres& spheres, const VoronoiCells& cells,
-                       voronoi::Functions functions, FacetRule rule) {
+FacetMeans facet_means(const Cloud<3>& cloud, const voronoi::Tetrahedra& mesh, voronoi::Circumspheres spheres,
+                       const VoronoiCells& cells, voronoi::Functions functions, FacetRule rule) {
   const std::size_t edges = cells.rings.end.size(), tetrahedra = mesh.node.size();
   const auto triangles = [&](EdgeIndex e) {
     const auto ring = cells.rings.of(e);
@@ -114,7 +113,8 @@ FacetMeans facet_means(const Cloud<3>& cloud, const voronoi::Tetrahedra& mesh,
       for (std::size_t k = 0; k < triangles(e); ++k) items.push_back({e, as<std::int32_t>(k)});
   }
 
-  const voronoi::FunctionMesh function_mesh(cloud, mesh, spheres);
+  const voronoi::FunctionMesh function_mesh(cloud, mesh, spheres, functions);
+  spheres = {};
   std::vector<Interface<3>> facet(items.size());
   constexpr std::size_t size = FaceMeans::block_size;
   std::vector<FaceMeans::Block> list((items.size() + size - 1) / size);

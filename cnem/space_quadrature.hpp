@@ -21,8 +21,7 @@ struct FacetMeans {
 /// of its fan, else linear fields would not be reproduced. Facets whose area is less than 1e-14 of the
 /// squared distance of their nodes are left out: they carry rounding only. O(N).
 enum class FacetRule { one_point, one_a_triangle };
-FacetMeans facet_means(const Cloud<3>& cloud, const voronoi::Tetrahedra& mesh,
-                       const voronoi::Circumspheres& spheres, const voronoi::VoronoiCells& cells,
-                       voronoi::Functions functions, FacetRule rule);
+FacetMeans facet_means(const Cloud<3>& cloud, const voronoi::Tetrahedra& mesh, voronoi::Circumspheres spheres,
+                       const voronoi::VoronoiCells& cells, voronoi::Functions functions, FacetRule rule);
 
 } // namespace cnem::scni

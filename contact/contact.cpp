@@ -47,6 +47,7 @@ void RigidContact<dim>::set_boundary(const std::vector<Facet<dim>>& facets, std:
     if (found != surface_.node.end() && *found == constraint.node)
       free_[index_of(found - surface_.node.begin())] = constraint.free;
   }
+  set_tied(group);
   before_.assign(n, Vec<dim>::Zero());
   start_.resize(n);
   end_.resize(n);
@@ -111,6 +112,8 @@ template<int dim> void RigidContact<dim>::correct(const ContactStep<dim>& step) 
     move(poses, step.dt);
     near_.look(surface_, tools_, poses, end_, taken_);
   }
+  share_out(contacts_, twins_, step.mass, surface_);
+  share_out(answered_, answered_twins_, step.mass, surface_);
   contacts_.insert(contacts_.end(), answered_.begin(), answered_.end());
   scatter(step);
   motions_.accept(tools_, poses);
@@ -125,7 +128,7 @@ template<int dim> void RigidContact<dim>::correct(const ContactStep<dim>& step) 
 
 /// Takes nodes and tools to where the impulses found so far bring them.
 template<int dim> void RigidContact<dim>::move(Poses<dim>& poses, double dt) {
-  for (const BoundaryNodeIndex b : taken_) end_[b] = reactions_[b].position + dt * reactions_[b].change;
+  for (const BoundaryNodeIndex b : taken_) end_[b] = reactions_[b].position + dt * change(b);
   for (const ToolIndex t : poses.indices()) {
     poses[t].end = tool_reactions_[t].position + dt * tool_reactions_[t].change;
     poses[t].velocity = tool_reactions_[t].velocity + tool_reactions_[t].change;
@@ -143,24 +146,10 @@ template<int dim> double RigidContact<dim>::gather(const ContactStep<dim>& step)
   for (const BoundaryNodeIndex b : taken_) is_taken_[b] = 0;
   taken_.clear();
   contacts_.clear();
+  twins_.clear();
   std::fill(heat_.begin(), heat_.end(), 0.0);
   std::fill(nodal_impulse_.begin(), nodal_impulse_.end(), Vec<dim>::Zero());
   return std::sqrt(longest2);
-}
-
-/// Notes what the nodes of a contact answer to impulses.
-template<int dim> void RigidContact<dim>::take(const Contact<dim>& contact, const ContactStep<dim>& step) {
-  for (std::size_t a = 0; a < Contact<dim>::slots; ++a) {
-    const BoundaryNodeIndex b = contact.node[a];
-    if (contact.weight[a] == 0.0 || is_taken_[b]) continue;
-    is_taken_[b] = 1;
-    taken_.push_back(b);
-    const NodeIndex node = surface_.node[b];
-    reactions_[b] = {.inverse = free_[b] / step.mass[index_of(node)],
-                     .position = end_[b],
-                     .velocity = at<dim>(step.velocity, node),
-                     .change = Vec<dim>::Zero()};
-  }
 }
 
 template<int dim>
@@ -198,29 +187,38 @@ bool RigidContact<dim>::add(Contact<dim> contact, double start, double level, co
     const double speed = std::max(pose.recovery, 0.5 * (mean(before_) - pose.before).norm());
     contact.level += std::min(0.0, start + step.dt * speed);
   }
-  const double gap = contact.normal.dot(mean(end_)) - contact.level;
-  if (gap >= 0.0) return false;
+  double missing = contact.level - contact.normal.dot(mean(end_));
+  if (missing <= 0.0) return false;
   if (exists(contact.tool))
     contact.level -= step.dt * contact.normal.dot(tool_reactions_[contact.tool].change);
   const auto earlier = contacts_.begin() + static_cast<std::ptrdiff_t>(from_earlier_passes_);
-  const auto known = std::find_if(contacts_.begin(), earlier, [&](const Contact<dim>& c) {
+  const auto is_same = [&](const Contact<dim>& c) {
     return c.tool == contact.tool && c.feature == contact.feature && c.facet == contact.facet &&
            c.node == contact.node && c.shift == contact.shift;
-  });
+  };
+  auto known = std::find_if(contacts_.begin(), earlier, is_same);
   if (known == earlier) {
-    take(contact, step);
-    contacts_.push_back(contact);
-  } else if (gap < -1e-14 * size_) {
-    known->level -= gap;
-  } else {
-    return false;
+    const auto twin = twin_of(contact, contacts_);
+    if (!twin) {
+      take(contact, step);
+      contacts_.push_back(contact);
+      return true;
+    }
+    known = contacts_.begin() + static_cast<std::ptrdiff_t>(*twin);
+    missing += gap(*known, step.dt); // the deepest of them says how far all are pushed
+    if (std::none_of(twins_.begin(), twins_.end(), [&](const Twin& t) { return is_same(t.contact); })) {
+      known->limit += contact.limit;
+      twins_.push_back({contact, *twin});
+    }
   }
+  if (missing <= 1e-14 * size_) return false;
+  known->level += missing;
   return true;
 }
 
 template<int dim> void RigidContact<dim>::scatter(const ContactStep<dim>& step) {
   for (const BoundaryNodeIndex b : taken_) {
-    const Vec<dim>& change = reactions_[b].change;
+    const Vec<dim> change = this->change(b);
     const auto node = index_of(surface_.node[b]);
     for (int k = 0; k < dim; ++k) {
       step.velocity[index_of(k)][node] += change[k];

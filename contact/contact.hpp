@@ -9,6 +9,7 @@
 #include "core/fields/archive.hpp"
 #include "core/geometry/cloud.hpp"
 
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -123,8 +124,9 @@ public:
   bool bodies_touch() const { return law_.active; } ///< whether parts of the workpiece see each other
   const BodyContactLaw& body_law() const { return law_; }
 
-  /// Takes the boundary of the cloud and the nodes that are not free. group: as BodyContact takes it. Costs
-  /// O(nodes + facets).
+  /// Takes the boundary of the cloud and the nodes that are not free. group, ≥ 0: nodes that are tied have
+  /// the same number; all of them are held in the same directions, and an impulse on one moves them all.
+  /// Empty: none is tied. Costs O(nodes + facets).
   void set_boundary(const std::vector<Facet<dim>>& facets, std::size_t nodes,
                     const std::vector<NodeConstraint<dim>>& constraints,
                     IndexedSpan<NodeIndex, const std::int32_t> group = {});
@@ -202,10 +204,13 @@ private:
   void move(Poses<dim>& poses, double dt);
   void look_for_passages(const Poses<dim>& poses, const ContactStep<dim>& step, double longest) const;
   bool stands(ToolIndex tool) const;
+  void set_tied(IndexedSpan<NodeIndex, const std::int32_t> group);
   void take(const Contact<dim>& contact, const ContactStep<dim>& step);
+  void take(BoundaryNodeIndex node, const ContactStep<dim>& step);
+  Vec<dim> change(BoundaryNodeIndex node) const { return reactions_[mover(reactions_, node)].change; }
+  double gap(const Contact<dim>& contact, double dt) const;
   void respond(const Poses<dim>& poses, const ContactStep<dim>& step);
-  void answer(BoundaryNodeIndex node, ToolIndex tool, const SurfacePoint<dim>& at,
-              const ContactStep<dim>& step);
+  void answer(Contact<dim>& contact, double depth, const ContactStep<dim>& step);
   bool find_on_faces(const Poses<dim>& poses, const ContactStep<dim>& step);
   std::span<const RidgePair> moved_among(std::span<const RidgePair> pairs) requires(dim == 3);
   bool find_on_ridges(const Poses<dim>& poses, const ContactStep<dim>& step);
@@ -213,6 +218,12 @@ private:
   bool find_on_bodies(const Poses<dim>& poses, const ContactStep<dim>& step);
   bool add(Contact<dim> contact, double start, double level, const Pose<dim>& pose,
            const ContactStep<dim>& step);
+  struct Twin;
+  bool tied_alike(const Contact<dim>& one, const Contact<dim>& other) const;
+  std::optional<std::size_t> twin_of(const Contact<dim>& contact,
+                                     const std::vector<Contact<dim>>& among) const;
+  static void share_out(std::vector<Contact<dim>>& contacts, std::vector<Twin>& twins, const Field& mass,
+                        const Surface<dim>& surface);
   template<class Area>
   void set_friction(Contact<dim>& contact, const ContactStep<dim>& step, Area&& rubbing_area) const;
   double rubbing_area(BoundaryNodeIndex node, BoundaryValues window) const;
@@ -233,6 +244,10 @@ private:
   BodyContact<dim> bodies_;
   Surface<dim> surface_;
   IndexedVector<BoundaryNodeIndex, Mat<dim>> free_;
+  struct Tied {
+    BoundaryNodeIndex first, next; ///< of those that are tied to each other; none
+  };
+  IndexedVector<BoundaryNodeIndex, Tied> tied_;
   double size_ = 0.0; ///< m, of the largest tool, or of the workpiece: the scale of rounding
 
   // The step in hand.
@@ -250,6 +265,12 @@ private:
   std::vector<RidgePair> moved_;       ///< 3D
   std::vector<Contact<dim>> contacts_; ///< in `correct` the exact ones, then all
   std::vector<Contact<dim>> answered_; ///< of tools whose response is not exact
+  /// What of a contact bears the same impulse as another: one of tied nodes where all touch alike.
+  struct Twin {
+    Contact<dim> contact;
+    std::size_t of; ///< the one that is solved for
+  };
+  std::vector<Twin> twins_, answered_twins_; ///< of contacts_, of answered_
   ImpulseSolver<dim> solver_;
   std::size_t from_earlier_passes_ = 0; ///< how many of them
 

@@ -36,7 +36,7 @@ template<int dim> void RigidContact<dim>::book(const Poses<dim>& poses, const Co
     const Vec<dim> impulse = contact.impulse();
     if (impulse.squaredNorm() == 0.0) continue;
     const Vec<dim> node = at_contact(contact, [&](BoundaryNodeIndex b) {
-      return Vec<dim>(0.5 * (before_[b] + reactions_[b].velocity + reactions_[b].change));
+      return Vec<dim>(0.5 * (before_[b] + reactions_[b].velocity + change(b)));
     });
     const Vec<dim> tool = 0.5 * (pose.before + pose.velocity);
     const double normal = (tool - node).dot(contact.normal) * contact.pressing;

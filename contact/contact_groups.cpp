@@ -31,7 +31,7 @@ void ContactGroups<dim>::divide(const std::vector<Contact<dim>>& contacts, const
   std::iota(parent_.begin(), parent_.end(), 0);
   const auto each_node = [&](const Contact<dim>& contact, auto&& act) {
     for (std::size_t a = 0; a < Contact<dim>::slots; ++a)
-      if (contact.weight[a] != 0.0) act(contact.node[a]);
+      if (contact.weight[a] != 0.0) act(mover(nodes, contact.node[a]));
   };
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const Contact<dim>& contact = contacts[c];

@@ -93,9 +93,12 @@ bool RigidContact<dim>::find_on_ridges(const Poses<dim>& poses, const ContactSte
       set_friction(contact, step, [&] {
         double area = 0.0; // of nodes that do not rub on a face themselves
         for (std::size_t a = 0; a < Contact<dim>::slots; ++a) {
-          const bool on_face = std::any_of(contacts_.begin(), contacts_.end(), [&](const Contact<dim>& c) {
+          const auto is_face = [&](const Contact<dim>& c) {
             return c.tool == contact.tool && !exists(c.facet) && c.node[0] == contact.node[a];
-          });
+          };
+          const bool on_face = std::any_of(contacts_.begin(), contacts_.end(), is_face) ||
+                               std::any_of(twins_.begin(), twins_.end(),
+                                           [&](const Twin& twin) { return is_face(twin.contact); });
           if (contact.weight[a] != 0.0 && !on_face)
             area += contact.weight[a] * rubbing_area(contact.node[a], step.window);
         }

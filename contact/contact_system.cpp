@@ -74,7 +74,8 @@ bool ContactSystem::couple(const std::vector<Contact<2>>& contacts, const Reacti
   for (std::size_t m = 0; m < member_.size(); ++m) {
     const Contact<2>& contact = contacts[index_of(member_[m].contact)];
     for (std::size_t a = 0; a < Contact<2>::slots; ++a)
-      if (contact.weight[a] != 0.0) end_.push_back({contact.node[a], as<std::int32_t>(m), contact.weight[a]});
+      if (contact.weight[a] != 0.0)
+        end_.push_back({mover(nodes, contact.node[a]), as<std::int32_t>(m), contact.weight[a]});
   }
   std::sort(end_.begin(), end_.end(), [](const End& a, const End& b) {
     return std::pair(a.node, a.member) < std::pair(b.node, b.member);

@@ -31,7 +31,7 @@ double shift_tool(std::vector<Contact<dim>>& contacts, std::span<const std::int3
   for (const std::int32_t c : group) {
     Contact<dim>& contact = contacts[index_of(c)];
     if (contact.tool != index || contact.pressing <= 0.0 || exists(contact.facet)) continue;
-    if (char& known = taken[contact.node[0]]; known)
+    if (char& known = taken[mover(nodes, contact.node[0])]; known)
       continue;
     else
       known = 1;

@@ -14,9 +14,15 @@ template<int dim> struct Reaction {
   Vec<dim> position = Vec<dim>::Zero(); ///< m, x* of the prediction
   Vec<dim> velocity = Vec<dim>::Zero(); ///< m/s, v* of the prediction
   Vec<dim> change = Vec<dim>::Zero();   ///< m/s, correction found so far
+  /// Of a tied node the one whose `change` is that of all that are tied to it, and its `inverse` theirs.
+  BoundaryNodeIndex moves_with = BoundaryNodeIndex::none;
 };
 
 template<int dim> using ReactionsOfNodes = IndexedVector<BoundaryNodeIndex, Reaction<dim>>;
+/// The node whose change a node has: its own where nothing is tied to it.
+template<int dim> BoundaryNodeIndex mover(const ReactionsOfNodes<dim>& nodes, BoundaryNodeIndex node) {
+  return exists(nodes[node].moves_with) ? nodes[node].moves_with : node;
+}
 template<int dim> using ReactionsOfTools = IndexedVector<ToolIndex, Reaction<dim>>;
 
 /// n·(Σ w_a x_a − Δt Δv_tool) ≥ level at the end of the step, with friction against a plane that moves at

@@ -15,8 +15,8 @@ public:
   /// m, at the end of the step.
   double gap() const {
     double sum = -contact_.level - dt_ * contact_.normal.dot(tool_.change);
-    each([&](double weight, const Reaction<dim>& node) {
-      sum += weight * contact_.normal.dot(node.position + dt_ * node.change);
+    each([&](double weight, const Reaction<dim>& node, const Vec<dim>& change) {
+      sum += weight * contact_.normal.dot(node.position + dt_ * change);
     });
     return sum;
   }
@@ -24,7 +24,9 @@ public:
   /// m/s, along the surface.
   Vec<dim> slip() const {
     Vec<dim> slip = -(contact_.surface + tool_.change);
-    each([&](double weight, const Reaction<dim>& node) { slip += weight * (node.velocity + node.change); });
+    each([&](double weight, const Reaction<dim>& node, const Vec<dim>& change) {
+      slip += weight * (node.velocity + change);
+    });
     return slip - slip.dot(contact_.normal) * contact_.normal;
   }
 
@@ -71,7 +73,7 @@ public:
   /// rounding would throw nodes along it.
   double node_mobility(const Vec<dim>& u) const {
     double sum = 0.0, free = 0.0;
-    each([&](double weight, const Reaction<dim>& node) {
+    each([&](double weight, const Reaction<dim>& node, const Vec<dim>&) {
       sum += weight * weight * u.dot(node.inverse * u);
       free += weight * weight * node.inverse.trace();
     });
@@ -87,7 +89,7 @@ public:
   /// Whether impulses along the normal cause no slip, nor those along the surface a gap.
   bool isotropic() const {
     bool all = tool_.inverse.isZero(0.0);
-    each([&](double, const Reaction<dim>& node) {
+    each([&](double, const Reaction<dim>& node, const Vec<dim>&) {
       all = all && node.inverse == node.inverse(0, 0) * Mat<dim>::Identity();
     });
     return all;
@@ -96,11 +98,14 @@ public:
 private:
   template<class Do> void each(Do&& act) const {
     for (std::size_t a = 0; a < Contact<dim>::slots; ++a)
-      if (contact_.weight[a] != 0.0) act(contact_.weight[a], nodes_[contact_.node[a]]);
+      if (contact_.weight[a] != 0.0)
+        act(contact_.weight[a], nodes_[contact_.node[a]], nodes_[mover(nodes_, contact_.node[a])].change);
   }
 
   void apply(const Vec<dim>& impulse) {
-    each([&](double weight, Reaction<dim>& node) { node.change += weight * (node.inverse * impulse); });
+    each([&](double weight, const Reaction<dim>& node, Vec<dim>& change) {
+      change += weight * (node.inverse * impulse);
+    });
     tool_.change -= tool_.inverse * impulse;
   }
 

@@ -10,6 +10,7 @@ namespace cnem::contact {
 /// contacts in `answered_`.
 template<int dim> void RigidContact<dim>::respond(const Poses<dim>& poses, const ContactStep<dim>& step) {
   answered_.clear();
+  answered_twins_.clear();
   for (const ToolIndex t : tools_.indices()) {
     const Tool<dim>& tool = tools_[t];
     if (tool.response.exact()) continue;
@@ -23,44 +24,53 @@ template<int dim> void RigidContact<dim>::respond(const Poses<dim>& poses, const
     }
     if (inside_.empty()) continue;
     tool.shape->entries(from_, from_, entries_);
-    for (const Entry<dim>& entry : entries_) answer(inside_[index_of(entry.index)], t, entry.at, step);
+    const std::size_t first = answered_.size();
+    std::vector<double> depth;
+    for (const Entry<dim>& entry : entries_) {
+      const BoundaryNodeIndex node = inside_[index_of(entry.index)];
+      Contact<dim> contact;
+      contact.tool = t;
+      contact.feature = entry.at.feature;
+      contact.node[0] = node;
+      contact.weight[0] = 1.0;
+      contact.normal = entry.at.normal;
+      set_friction(contact, step, [&] { return rubbing_area(node, step.window); });
+      if (const auto twin = twin_of(contact, answered_)) {
+        answered_[*twin].limit += contact.limit;
+        answered_twins_.push_back({contact, *twin});
+        continue;
+      }
+      take(contact, step);
+      answered_.push_back(contact);
+      depth.push_back(-entry.at.distance);
+    }
+    for (std::size_t k = 0; k < depth.size(); ++k) answer(answered_[first + k], depth[k], step);
   }
-  for (const BoundaryNodeIndex b : taken_) end_[b] = reactions_[b].position + step.dt * reactions_[b].change;
+  for (const BoundaryNodeIndex b : taken_) end_[b] = reactions_[b].position + step.dt * change(b);
 }
 
 template<int dim>
-void RigidContact<dim>::answer(BoundaryNodeIndex node, ToolIndex t, const SurfacePoint<dim>& at,
-                               const ContactStep<dim>& step) {
-  Contact<dim> contact;
-  contact.tool = t;
-  contact.feature = at.feature;
-  contact.node[0] = node;
-  contact.weight[0] = 1.0;
-  contact.normal = at.normal;
-  set_friction(contact, step, [&] { return rubbing_area(node, step.window); });
-  take(contact, step);
-  Reaction<dim>& tool = tool_reactions_[t];
+void RigidContact<dim>::answer(Contact<dim>& contact, double depth, const ContactStep<dim>& step) {
+  const BoundaryNodeIndex node = contact.node[0];
+  Reaction<dim>& tool = tool_reactions_[contact.tool];
   const Reaction<dim>& own = reactions_[node];
-  const Push<dim> push = tools_[t].response.push(
-      Intrusion<dim>{.depth = -at.distance,
+  const Push<dim> push = tools_[contact.tool].response.push(
+      Intrusion<dim>{.depth = depth,
                      .dt = step.dt,
                      .dt_mean = step.dt_mean,
-                     .normal = at.normal,
+                     .normal = contact.normal,
                      .tool = tool.velocity + tool.change,
-                     .approach = tool.velocity + tool.change - own.velocity - own.change,
+                     .approach = tool.velocity + tool.change - own.velocity - change(node),
                      .mobility = own.inverse + tool.inverse});
   Sweeper<dim> sweeper(contact, reactions_, tool, step.dt);
-  const double pressing = push.impulse.dot(at.normal);
-  sweeper.set(pressing, push.impulse - pressing * at.normal);
+  const double pressing = push.impulse.dot(contact.normal);
+  sweeper.set(pressing, push.impulse - pressing * contact.normal);
   if (push.rubs) sweeper.rub();
-  answered_.push_back(contact);
 }
 
 template void RigidContact<2>::respond(const Poses<2>&, const ContactStep<2>&);
-template void RigidContact<2>::answer(BoundaryNodeIndex, ToolIndex, const SurfacePoint<2>&,
-                                      const ContactStep<2>&);
+template void RigidContact<2>::answer(Contact<2>&, double, const ContactStep<2>&);
 template void RigidContact<3>::respond(const Poses<3>&, const ContactStep<3>&);
-template void RigidContact<3>::answer(BoundaryNodeIndex, ToolIndex, const SurfacePoint<3>&,
-                                      const ContactStep<3>&);
+template void RigidContact<3>::answer(Contact<3>&, double, const ContactStep<3>&);
 
 } // namespace cnem::contact

@@ -158,7 +158,7 @@ template<int dim> typename ExplicitSolver<dim>::Step ExplicitSolver<dim>::stable
   next_levels_.clear();
   if (local_.on()) {
     const auto bounds = bound_.of_ranges(op, point.deformation, point.wave_modulus, state_.node.inertia(),
-                                         LocalSteps<dim>::block);
+                                         LocalSteps<dim>::block, conditions_.ties);
     Field stable(bounds.size());
     for (std::size_t b = 0; b < bounds.size(); ++b) stable[b] = step_of(bounds[b]);
     auto level = local_.choose(op, approximation_->links, stable);
@@ -167,7 +167,8 @@ template<int dim> typename ExplicitSolver<dim>::Step ExplicitSolver<dim>::stable
     // Several levels keep the distance that rows leave: nearer the exact step, borders may resonate.
     if (sub_steps() > 1) return within(finest, sub_steps(), bounds[limiting].point);
   }
-  const auto bound = bound_.of_all(op, point.deformation, point.wave_modulus, state_.node.inertia());
+  const auto bound =
+      bound_.of_all(op, point.deformation, point.wave_modulus, state_.node.inertia(), conditions_.ties);
   return within(step_of(bound), 1, bound.point);
 }
 

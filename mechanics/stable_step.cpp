@@ -63,11 +63,12 @@ SpectralView<dim> SpectralBound<dim>::prepare(const DiscreteOperators<dim>& oper
 
 /// A x.
 template<int dim>
-void SpectralBound<dim>::map(const SpectralView<dim>& view, std::size_t nodes, std::size_t points) {
-  for_each_block(nodes, [&](std::size_t begin, std::size_t end) {
+void SpectralBound<dim>::map(const SpectralView<dim>& view, const Field& weight, const Ties<dim>& ties) {
+  for_each_block(transfer_.size(), [&](std::size_t begin, std::size_t end) {
     transfer(view, static_cast<std::ptrdiff_t>(begin), static_cast<std::ptrdiff_t>(end));
   });
-  for_each_block(points, [&](std::size_t begin, std::size_t end) {
+  ties.share(weight, transfer_);
+  for_each_block(image_.size(), [&](std::size_t begin, std::size_t end) {
     rows(view, static_cast<std::ptrdiff_t>(begin), static_cast<std::ptrdiff_t>(end));
   });
 }
@@ -76,10 +77,10 @@ template<int dim>
 std::vector<typename SpectralBound<dim>::Result>
 SpectralBound<dim>::of_ranges(const DiscreteOperators<dim>& operators,
                               const Fields<tensor_size<dim>>& deformation, const Field& modulus,
-                              const Field& weight, std::size_t width) {
-  const auto nodes = index_of(operators.nodes), points = index_of(operators.points);
+                              const Field& weight, std::size_t width, const Ties<dim>& ties) {
+  const auto points = index_of(operators.points);
   const Field ones(points, 1.0);
-  map(prepare(operators, deformation, modulus, weight, ones), nodes, points);
+  map(prepare(operators, deformation, modulus, weight, ones), weight, ties);
   std::vector<Result> ranges((points + width - 1) / width);
   for (std::size_t r = 0; r < ranges.size(); ++r) {
     ranges[r] = {0.0, r * width};
@@ -105,25 +106,26 @@ template<int dim> typename SpectralBound<dim>::Result SpectralBound<dim>::larges
 template<int dim>
 typename SpectralBound<dim>::Result SpectralBound<dim>::of_all(const DiscreteOperators<dim>& operators,
                                                                const Fields<tensor_size<dim>>& deformation,
-                                                               const Field& modulus, const Field& weight) {
-  const auto nodes = index_of(operators.nodes), points = index_of(operators.points);
+                                                               const Field& modulus, const Field& weight,
+                                                               const Ties<dim>& ties) {
+  const auto points = index_of(operators.points);
   const bool found = !share_.empty();
   if (!found) share_.assign(points, 1.0);
   const SpectralView<dim> view = prepare(operators, deformation, modulus, weight, share_);
-  map(view, nodes, points);
+  map(view, weight, ties);
   Result bound = largest_quotient();
   if (found && bound.value <= grown * settled_) return bound;
   const bool near = found && bound.value <= jumped * settled_;
   if (found && !near) {
     share_.assign(points, 1.0);
-    map(view, nodes, points);
+    map(view, weight, ties);
     bound = largest_quotient();
   }
   for (int iteration = 0; iteration < (near ? further_iterations : first_iterations); ++iteration) {
     const double scale = image_[bound.point];
     if (!(scale > 0.0)) break; // no stiffness at all, or no number
     for (std::size_t p = 0; p < points; ++p) share_[p] = std::max(image_[p] / scale, least_share);
-    map(view, nodes, points);
+    map(view, weight, ties);
     bound = largest_quotient();
   }
   settled_ = bound.value;

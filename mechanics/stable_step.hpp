@@ -4,6 +4,7 @@
 #include "core/fields/state.hpp"
 #include "core/operators/operators.hpp"
 #include "mechanics/step_kernels.hpp"
+#include "mechanics/ties.hpp"
 
 #include <vector>
 
@@ -18,7 +19,8 @@ namespace cnem {
 /// radius is below the largest quotient (Collatz 1942, Wielandt 1950); x = 1 gives Gershgorin's rows. With k
 /// = λ + 2μ it bounds ω² of elastic waves, with the conductivity the decay rate of heat. Moves with |F⁻ᵀ b| ≤
 /// the bound's own tensor norm, so it holds for any F. Of revolution |b| becomes max(|b + h e_r|, √(|b|² +
-/// h²)), which bounds the energy norm of u ↦ (u ⊗ b, u_r h) for λ ≥ 0.
+/// h²)), which bounds the energy norm of u ↦ (u ⊗ b, u_r h) for λ ≥ 0. Tied nodes are one column: the sum of
+/// their blocks has no more than the sum of their norms, and their masses add up.
 template<int dim> class SpectralBound {
 public:
   struct Result {
@@ -28,13 +30,13 @@ public:
   /// Gershgorin's bound (x = 1) of each of the ranges of `width` points; width divides block_size.
   std::vector<Result> of_ranges(const DiscreteOperators<dim>& operators,
                                 const Fields<tensor_size<dim>>& deformation, const Field& modulus,
-                                const Field& weight, std::size_t width);
+                                const Field& weight, std::size_t width, const Ties<dim>& ties = {});
 
   /// The bound of all points with an x near the eigenvector of the largest eigenvalue of A: power iterations
   /// from x = 1, which go on once the bound has grown by a twentieth since (no iteration raises it) and begin
   /// again where it has doubled. `point`: where A x is largest.
   Result of_all(const DiscreteOperators<dim>& operators, const Fields<tensor_size<dim>>& deformation,
-                const Field& modulus, const Field& weight);
+                const Field& modulus, const Field& weight, const Ties<dim>& ties = {});
   /// The operators are others: x begins at 1 again.
   void forget() { share_.clear(); }
 
@@ -44,7 +46,7 @@ private:
   SpectralView<dim> prepare(const DiscreteOperators<dim>& operators,
                             const Fields<tensor_size<dim>>& deformation, const Field& modulus,
                             const Field& weight, const Field& share);
-  void map(const SpectralView<dim>& view, std::size_t nodes, std::size_t points);
+  void map(const SpectralView<dim>& view, const Field& weight, const Ties<dim>& ties);
   Result largest_quotient() const;
 
   Field share_;          ///< [point] x; empty: to be found

@@ -114,31 +114,14 @@ template<int dim> void Ties<dim>::share(const Field& weight, Field& value) const
   }
 }
 
-template<int dim>
-double Ties<dim>::share_motion(const Field& mass, double dt, Fields<dim>& velocity,
-                               Fields<dim>& position) const {
-  const auto kinetic = [&] {
-    double sum = 0.0;
-    for (std::size_t k = 0; k < dim; ++k)
-      for (const NodeIndex i : node_)
-        sum += 0.5 * mass[index_of(i)] * velocity[k][index_of(i)] * velocity[k][index_of(i)];
-    return sum;
-  };
-  const double before = kinetic();
-  for (std::size_t k = 0; k < dim; ++k) {
-    std::vector<double> old(begin_.size());
-    for (std::size_t g = 0; g + 1 < begin_.size(); ++g)
-      old[g] = velocity[k][index_of(node_[index_of(begin_[g])])];
-    share(mass, velocity[k]);
+template<int dim> void Ties<dim>::align(Fields<dim>& position) const {
+  for (std::size_t k = 0; k < dim; ++k)
     for (std::size_t g = 0; g + 1 < begin_.size(); ++g) {
-      const auto leader = index_of(node_[index_of(begin_[g])]);
-      position[k][leader] += dt * (velocity[k][leader] - old[g]);
+      const auto first = index_of(node_[index_of(begin_[g])]);
       for (std::int32_t m = begin_[g] + 1; m < begin_[g + 1]; ++m)
         position[k][index_of(node_[index_of(m)])] =
-            position[k][leader] + offset_[index_of(m)][static_cast<Eigen::Index>(k)];
+            position[k][first] + offset_[index_of(m)][static_cast<Eigen::Index>(k)];
     }
-  }
-  return before - kinetic();
 }
 
 template class Ties<2>;

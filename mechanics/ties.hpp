@@ -20,7 +20,7 @@ namespace cnem {
 /// two sides of a bonded interface coincide to the last bit.
 ///
 /// Tying never shortens the stable step: the largest eigenvalue of tied matrices lies below that of the free
-/// ones.
+/// ones (mechanics/stable_step.hpp has a bound on it).
 template<int dim> class Ties {
 public:
   Ties() = default;
@@ -49,9 +49,8 @@ public:
   }
   /// Every group's values become Σ w v / Σ w.
   void share(const Field& weight, Field& value) const;
-  /// The same for velocities, m/s, at positions, m, that have moved by dt, s, times them: those follow the
-  /// change. Returns the kinetic energy this takes, ≥ 0, J/m^(3−dim).
-  double share_motion(const Field& mass, double dt, Fields<dim>& velocity, Fields<dim>& position) const;
+  /// Puts members that have moved alike where the first of their group says, m: without rounding.
+  void align(Fields<dim>& position) const;
 
 private:
   void group(const std::vector<std::array<NodeIndex, 2>>& pairs, std::size_t nodes);

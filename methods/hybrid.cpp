@@ -1,6 +1,7 @@
 #include "methods/hybrid.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace cnem::methods {
 namespace {
@@ -44,10 +45,10 @@ Hybrid::Hybrid(double zone_spacing, int gauss_points, Space space)
 Approximation<2> Hybrid::rebuild(const Cloud<2>& cloud) {
   const scni::Diagram diagram(cloud);
   const auto zone = natural_zone(cloud, diagram.triangulation, zone_spacing_);
-  const scni::FaceMeans means = scni::face_means<2>(cloud, diagram.cells, gauss_points_, space_, [&] {
+  scni::FaceMeans means = scni::face_means<2>(cloud, diagram.cells, gauss_points_, space_, [&] {
     return OnFaces{voronoi::NaturalNeighbours(cloud, diagram.triangulation, diagram.circles), zone};
   });
-  return scni::integrate_at_nodes(cloud, diagram, means, voronoi::Functions::sibson, space_);
+  return scni::integrate_at_nodes(cloud, diagram, std::move(means), voronoi::Functions::sibson, space_);
 }
 
 } // namespace cnem::methods

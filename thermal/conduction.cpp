@@ -3,6 +3,7 @@
 #include "core/index.hpp"
 #include "core/machine/isa.hpp"
 #include "core/machine/parallel.hpp"
+#include "core/operators/leading_simplices.hpp"
 #include "core/operators/side_by_side.hpp"
 #include "core/vec.hpp"
 #include "thermal/conduction_kernels.hpp"
@@ -24,14 +25,15 @@ template<int dim> struct Row {
 };
 
 template<int dim>
-Row<dim> row_of(const DiscreteOperators<dim>& operators, const Field& position, std::size_t p) {
+Row<dim> row_of(const DiscreteOperators<dim>& operators, std::size_t unread, const Field& position,
+                std::size_t p) {
   Row<dim> row;
   if (operators.of_revolution()) row.hoop = 0.0;
   for (auto e = index_of(operators.row_begin[p]); e < index_of(operators.row_begin[p + 1]); ++e) {
     const auto j = index_of(operators.node[e]);
     if (operators.of_revolution()) row.hoop += operators.hoop[e] * position[beside<dim> * j];
     for (int k = 0; k < dim; ++k) {
-      const double b = operators.gradient[index_of(k)][e];
+      const double b = operators.gradient[index_of(k)][e - unread];
       for (int i = 0; i < dim; ++i) row.deformation(i, k) += position[beside<dim> * j + index_of(i)] * b;
     }
   }
@@ -46,7 +48,9 @@ void Conduction<dim>::set_operators(const DiscreteOperators<dim>& operators, Fie
   conductivity_ = given_ = std::move(conductivity);
   limited_ = false;
   corner_.clear();
-  simplices_ = leading_simplices(operators);
+  simplices_ = operators.of_revolution() || operators.nodal ? 0 : leading_simplices(operators);
+  if (dim == 2 && simplices_ < index_of(operators.points)) simplices_ = 0;
+  unread_ = operators.node.size() - operators.gradient[0].size();
   flux_.assign(dim * (index_of(operators.points) - simplices_), 0.0);
   const bool by_entries = dim == 3 ? !operators.nodal : simplices_ > 0;
   heat_.assign(by_entries ? operators.node.size() : 0, 0.0);
@@ -69,20 +73,6 @@ void subtract_flow(const OperatorColumns<dim>& columns, const Field& flux, Field
   CNEM_ON_ACTIVE_ISA(conduction_flow(columns, flux.data(), flow.data(), static_cast<std::ptrdiff_t>(begin),
                                      static_cast<std::ptrdiff_t>(end)));
 }
-
-} // namespace
-
-/// How many rows from the first on have dim + 1 nodes, whose gradients are the linear ones: in the plane all
-/// or none.
-template<int dim> std::size_t Conduction<dim>::leading_simplices(const DiscreteOperators<dim>& op) {
-  if (op.of_revolution() || op.nodal) return 0;
-  std::size_t count = 0;
-  while (count < index_of(op.points) && op.row_begin[count + 1] == (dim + 1) * (as<std::int32_t>(count) + 1))
-    ++count;
-  return dim == 3 || count == index_of(op.points) ? count : 0;
-}
-
-namespace {
 
 template<int dim>
 void simplex_heat(const std::vector<NodeIndex>& corner, const Field& position, const Field& temperature,
@@ -143,7 +133,8 @@ void Conduction<dim>::add_simplex_flow(const Field& position, const Field& tempe
 template<int dim> void Conduction<dim>::heat_other_rows(const Field& position, const Field& temperature) {
   const DiscreteOperators<dim>& op = *operators_;
   if (simplices_ == index_of(op.points)) return;
-  const auto rows = sparse_rows<dim>(op.row_begin, op.node, op.gradient);
+  auto rows = sparse_rows<dim>(op.row_begin, op.node, op.gradient);
+  for (const double*& weight : rows.weight) weight -= unread_;
   for_each_block(index_of(op.points) - simplices_, [&](std::size_t begin, std::size_t end) {
     flux(rows, nullptr, position, temperature, conductivity_, flux_.data() + dim * begin, simplices_ + begin,
          simplices_ + end);
@@ -151,7 +142,7 @@ template<int dim> void Conduction<dim>::heat_other_rows(const Field& position, c
       const double* q = flux_.data() + dim * (p - simplices_);
       for (auto e = index_of(op.row_begin[p]); e < index_of(op.row_begin[p + 1]); ++e) {
         double along = 0.0;
-        for (std::size_t k = 0; k < dim; ++k) along += q[k] * op.gradient[k][e];
+        for (std::size_t k = 0; k < dim; ++k) along += q[k] * op.gradient[k][e - unread_];
         heat_[e] = -op.volume[p] * along;
       }
     }
@@ -219,7 +210,7 @@ template<int dim> void Conduction<dim>::look_at_transfer(const Field& position) 
         }
         continue;
       }
-    const Row<dim> row = row_of<dim>(op, position, p);
+    const Row<dim> row = row_of<dim>(op, unread_, position, p);
     Mat<dim> inverse_transpose = row.deformation.inverse().transpose();
     double determinant = row.deformation.determinant();
     if constexpr (dim == 2)
@@ -238,7 +229,7 @@ template<int dim> void Conduction<dim>::look_at_transfer(const Field& position) 
     const double volume = op.volume[p] * determinant * row.hoop;
     for (auto e = index_of(op.row_begin[p]); e < index_of(op.row_begin[p + 1]); ++e) {
       Vec<dim> b;
-      for (int k = 0; k < dim; ++k) b[k] = op.gradient[index_of(k)][e];
+      for (int k = 0; k < dim; ++k) b[k] = op.gradient[index_of(k)][e - unread_];
       norm_[e] = (inverse_transpose * b).norm();
       transfer_[index_of(op.node[e])] += volume * conductivity_[p] * norm_[e];
       around_[index_of(op.node[e])] += volume;

@@ -30,7 +30,6 @@ public:
   void lift_limit();
 
 private:
-  static std::size_t leading_simplices(const DiscreteOperators<dim>& operators);
   void number_corners();
   double conducting_determinant(const Mat2& deformation, std::size_t row) const;
   void look_at_transfer(const Field& position);
@@ -42,6 +41,7 @@ private:
   std::vector<NodeIndex> triangle_;  ///< [3 · triangle + corner] node, counter-clockwise, in the plane
   std::vector<std::int32_t> corner_; ///< [column entry] row entry; empty: flux through columns
   std::size_t simplices_ = 0;        ///< rows that are linear simplices: in the plane all or none
+  std::size_t unread_ = 0;           ///< entries of theirs whose gradients are not there
   Field conductivity_, given_;       ///< as limited, and without limits
   bool limited_ = false;
   Field flux_; ///< [row][k] k J F⁻¹F⁻ᵀ ∇_X T, pulled-back heat flux with its sign turned, of rows that are no

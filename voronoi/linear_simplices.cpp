@@ -3,6 +3,7 @@
 #include "core/error.hpp"
 #include "core/geometry/facets.hpp"
 #include "core/index.hpp"
+#include "core/operators/leading_simplices.hpp"
 #include "core/operators/operator_checks.hpp"
 
 #include <Eigen/LU>
@@ -117,7 +118,9 @@ void keep_pattern(DiscreteOperators<3>& op) {
   for (Field* field : {&op.value, &op.weighted_value}) *field = Field();
   op.weighted_gradient = Fields<3>();
   op.point = std::vector<PointIndex>();
-  if (op.node.size() == 4 * index_of(op.points)) op.gradient = Fields<3>();
+  const auto unread = static_cast<std::ptrdiff_t>(4 * leading_simplices(op));
+  for (Field& gradient : op.gradient) gradient = Field(gradient.begin() + unread, gradient.end());
+  op.node.shrink_to_fit();
 }
 
 template<int dim>

@@ -26,7 +26,7 @@ DiscreteOperators<dim> linear_simplices(const Cloud<dim>& cloud, std::span<const
 
 /// Lets go of what conduction does not read of tetrahedra, which conduct as they stand
 /// (thermal/conduction.hpp) and would take as much memory as the operators of mechanics: their pattern is
-/// left, and gradients where other rows follow theirs (voronoi/space/conduction.hpp).
+/// left, and the gradients of other rows that follow theirs (voronoi/space/conduction.hpp) alone.
 void keep_pattern(DiscreteOperators<3>& op);
 
 /// Simplices as they are drawn, whose vertices are the nodes.

@@ -22,8 +22,6 @@ public:
     if (sprung_tools_) all.insert(all.begin() + 1, {&springs_, &damping_});
     return all;
   }
-  void archive(Archive& archive) override { archive.number("solver/energy/tie_loss", "J/m", tie_loss_); }
-
   void audit(const BodyView<dim>& body) override {
     const contact::DriveEnergy drives = body.conditions.contact.drive_energy();
     tool_kinetic_.value = drives.kinetic;
@@ -65,8 +63,7 @@ public:
     NodeState<dim>& node = body.state.node;
     if (body.conditions.contact.active())
       touch(body, window_.empty() ? contact::BoundaryValues() : window_[index_of(activity)], dt, dt_mean);
-    if (!body.conditions.ties.empty())
-      tie_loss_ += body.conditions.ties.share_motion(node.inertia(), dt, node.velocity, node.position);
+    body.conditions.ties.align(node.position);
   }
 
 private:
@@ -111,7 +108,7 @@ private:
     tools_.value = 0.0;
     recovery_.value = bodies.recovery;
     friction_.value = bodies.friction;
-    impact_.value = tie_loss_ + bodies.impact;
+    impact_.value = bodies.impact;
     for (std::size_t t = 0; t < contact.tools().size(); ++t) {
       const contact::ToolResult<dim>& tool = contact.results()[t];
       if (!contact.tools()[t].drive) tools_.value += tool.total.tool;
@@ -132,7 +129,6 @@ private:
   Energy supports_{"support_work", EnergyKind::received};     ///< of prescribed boundary motion
   bool sprung_tools_;
   std::vector<double> melting_; ///< [material] K
-  double tie_loss_ = 0.0; ///< J/m^(3−dim) of kinetic energy where contact struck tied nodes differently
   std::vector<IndexedVector<BoundaryNodeIndex, double>> window_; ///< [activity] as contact takes it
 };
 

@@ -264,8 +264,7 @@ TEST(AdaptedParts, a_cut_goes_through_an_interface) {
   Course course(layered_sheet, {});
   EXPECT_EQ(bodies(course.solver().conditions().cloud), 1);
   course.run([&] { expect_bonded(course, Vec2::Zero()); });
-  // ties take back some of what contact corrects beside a crossing, so that faces overlap for some steps
-  course.expect_kept(5);
+  course.expect_kept();
   EXPECT_EQ(course.counted("cuts"), 1.0);
   EXPECT_EQ(bodies(course.solver().conditions().cloud), 2) << "a slug of two layers, and the rest";
 }

@@ -73,6 +73,11 @@ DiscreteOperators<3> linear_tetrahedra(const Cloud<3>& cloud, const Tetrahedra& 
   DiscreteOperators<3> op;
   op.points = static_cast<int>(roots.size());
   op.nodes = cloud.nodes();
+  op.row_begin.reserve(roots.size() + 1);
+  op.volume.reserve(roots.size());
+  op.node.reserve(4 * mesh.node.size());
+  op.value.reserve(4 * mesh.node.size());
+  for (Field& gradient : op.gradient) gradient.reserve(4 * mesh.node.size());
   op.row_begin.assign(1, 0);
   struct Entry {
     NodeIndex node;

@@ -38,14 +38,17 @@ struct Corner {
 
 } // namespace
 
-FunctionMesh::FunctionMesh(const Cloud<3>& cloud, const Tetrahedra& mesh, const Circumspheres& spheres) {
+FunctionMesh::FunctionMesh(const Cloud<3>& cloud, const Tetrahedra& mesh, const Circumspheres& spheres,
+                           Functions functions) {
   const std::size_t count = mesh.node.size();
   record.resize(count);
-  share.resize(count);
+  const bool sibson = functions == Functions::sibson;
+  if (sibson) share.resize(count);
   for_each_block(count, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) {
       const Vec3& centre = spheres.centre[t];
       record[t] = {{centre.x(), centre.y(), centre.z()}, spheres.limit[t], mesh.node[t], mesh.neighbour[t]};
+      if (!sibson) continue;
       const auto x = corners_of(cloud, mesh, as<SimplexIndex>(t));
       const auto normal = face_normals(x);
       auto& own = share[t] = {};

@@ -23,10 +23,11 @@ struct FunctionMesh {
   };
   IndexedVector<SimplexIndex, Record> record;
   /// [tetrahedron][k] what is nearest to corner k of it, m³: between the corner, the middles of its edges and
-  /// the circumcentres of faces and tetrahedron; signed.
+  /// the circumcentres of faces and tetrahedron; signed. Of Sibson's functions alone.
   IndexedVector<SimplexIndex, std::array<double, 4>> share;
 
-  FunctionMesh(const Cloud<3>& cloud, const Tetrahedra& mesh, const Circumspheres& spheres);
+  FunctionMesh(const Cloud<3>& cloud, const Tetrahedra& mesh, const Circumspheres& spheres,
+               Functions functions = Functions::sibson);
 };
 
 /// How often other functions had to be taken than those asked for.

@@ -307,8 +307,13 @@ pieces = ["z-", "z+"]
   }
 
   void run() {
-    while (solver_.state().time < 0.8e-6) solver_.advance(solver_.stable_step().dt);
+    while (solver_.state().time < 0.8e-6) {
+      solver_.advance(solver_.stable_step().dt);
+      deepest_ever_ = std::max(deepest_ever_, deepest());
+    }
   }
+  /// m, after any step.
+  double deepest_ever() const { return deepest_ever_; }
   const ExplicitSolver<3>& solver() const { return solver_; }
 
 private:
@@ -324,6 +329,7 @@ private:
   }
 
   ExplicitSolver<3> solver_;
+  double deepest_ever_ = 0.0;
 };
 
 TEST(SpacePeriods, lips_that_close_meet_images_of_each_other) {
@@ -332,7 +338,7 @@ TEST(SpacePeriods, lips_that_close_meet_images_of_each_other) {
   lips.run();
   free.run();
   EXPECT_GT(lips.beyond(), 0.1e-3) << "a quarter of the slice";
-  EXPECT_LT(lips.deepest(), 1e-7);
+  EXPECT_LT(lips.deepest_ever(), 1e-13);
   EXPECT_GT(free.deepest(), 5e-6) << "they would have passed through each other";
   EXPECT_LT((lips.mean_velocity() - before).norm(), 1e-12 * 300.0);
   EXPECT_LT(std::abs(lips.solver().ledger().residual()), 1e-3 * lips.solver().ledger().initial());

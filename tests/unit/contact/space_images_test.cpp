@@ -216,6 +216,15 @@ TEST(SpaceImages, a_fold_lands_on_the_slice_beside_it) {
   const Vec3 momentum = slab.momentum();
   for (int n = 0; n < 60; ++n) slab.step(1e-3);
   EXPECT_LT((slab.momentum() - momentum).norm(), 1e-13);
+  int moved = 0;
+  for (int i = 0; i < own; ++i)
+    for (int j = 0; j < i; ++j) {
+      if (slab.group[std::size_t(i)] < 0 || slab.group[std::size_t(i)] != slab.group[std::size_t(j)])
+        continue;
+      EXPECT_EQ(slab.velocity(i), slab.velocity(j)) << "what lands on one of two tied nodes moves both";
+      moved += slab.velocity(i).z() < -0.01;
+    }
+  EXPECT_GE(moved, 3);
   int stopped = 0;
   for (int i = own; i < slab.nodes(); ++i) stopped += slab.velocity(i).z() > -0.95;
   EXPECT_EQ(stopped, 16) << "nodes of its lower side, of which 4 are above the slab itself";

@@ -137,6 +137,10 @@ TEST(ConductionInSpace, rows_of_flat_tetrahedra_conduct_beside_the_others) {
   const Field temperature = random_temperatures(body.cloud.position.size(), 4);
   const Field expected = pulled_back_flow(op, position, temperature);
   voronoi::keep_pattern(op);
+  std::size_t others = 0;
+  for (std::size_t p = 0; p < index_of(op.points); ++p)
+    if (entries(p) > 4) others += index_of(entries(p));
+  EXPECT_EQ(op.gradient[0].size(), others) << "of those behind the single ones alone";
   const Field flow = flow_of(op, position, temperature);
   for (std::size_t i = 0; i < flow.size(); ++i) EXPECT_NEAR(flow[i], expected[i], 1e-11 * k * 900) << i;
 }
