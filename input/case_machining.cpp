@@ -89,8 +89,9 @@ NamedMode read_mode(const Setting& table, Diagnostics& diagnostics) {
     diagnostics.add(Mistake::conflict, mass->where, mass->path,
                     "found a mass and a stiffness, expected one of them");
   else if (!stiffness && !mass)
-    diagnostics.add(Mistake::missing_key, table.where, table.path + ".stiffness",
-                    find_key("modes.*.stiffness")->missing());
+    diagnostics.add(
+        Mistake::missing_key, table.where, table.path + ".stiffness",
+        fmt::format("missing, expected {}, or mass", find_key("modes.*.stiffness")->expectation()));
   else
     mode.stiffness = stiffness ? std::get<double>(stiffness->value)
                                : std::get<double>(mass->value) * mode.omega() * mode.omega();

@@ -72,6 +72,14 @@ Vec3 EdgeElements::bear(EdgeLoad& load, std::size_t layer, std::size_t tooth, do
   return force;
 }
 
+double EdgeElements::bears(double thickness, double speed) const {
+  double sum = 0.0;
+  for (std::size_t k = lowest_; k < end_; ++k)
+    sum += layer_[k].width *
+           (law_.empty() ? cut_.law : law_[k]).at({.thickness = thickness, .speed = speed}).force.norm();
+  return sum;
+}
+
 void EdgeElements::add(EdgeLoad& load, std::size_t layer, std::size_t tooth, const Bite& bite,
                        const Vec3& way, double duration, const CutterPlace& from,
                        const CutterPlace& to) const {

@@ -49,6 +49,9 @@ public:
   /// m, from the axis of the cutter to an edge.
   Vec2 arm(std::size_t layer, std::size_t tooth, const CutterPlace& place) const;
 
+  /// N, what the edges of a tooth bear together on a chip of a thickness, m, at a speed, m/s, at most.
+  double bears(double thickness, double speed) const;
+
   /// Adds what an element bears that has taken a bite on its way in a step, m relative to the part, of a
   /// duration, s, and between two angles of the cutter.
   void add(EdgeLoad& load, std::size_t layer, std::size_t tooth, const Bite& bite, const Vec3& way,

@@ -291,15 +291,24 @@ ProcessStep MillingProcess::advance() {
   }
 }
 
+double MillingProcess::rubbing(double chip) const {
+  double give = 0.0; // m/N
+  for (std::size_t i = 0; i < modes_.size(); ++i)
+    give += modes_[i].participation().squaredNorm() / modes_[i].stiffness *
+            std::abs(1.0 - free_[i].of_state(0, 0));
+  return give * edges().bears(chip, settings_.spindle * cut_.cutter.radius());
+}
+
 ProcessStep MillingProcess::make_step() {
   take_shapes();
   PerLayer shift = shift_of(moved(force_));
   if (part_) part_->answer();
   // Where an edge only just touches its force comes and goes from one question to the next: what that moves
-  // is told from a failure by its size.
+  // is told from a failure by its size. Spring passes do little else.
   constexpr int enough = 5, most = 30;
-  constexpr double close = 1e-12;                                 // m
-  const double touch = 1e-6 * cut_.feed, rubs = 1e-4 * cut_.feed; // spring passes do little else
+  constexpr double close = 1e-12; // m
+  const double touch = 1e-6 * cut_.feed;
+  const double rubs = std::clamp(rubbing(touch), 1e-4 * cut_.feed, 1e-2 * cut_.feed);
   double unsettled = 0.0;
   for (int iteration = 0; !modes_.empty() || part_; ++iteration) {
     bear(shift, force_, [&](std::size_t k, const Sweep& sweep) { return layer_[k].ask(sweep); });

@@ -129,6 +129,8 @@ private:
   /// Takes the duration of this step; the cutter goes to the begin of a pass. Throws DivergenceError.
   void begin_step();
   void begin_pass(std::size_t pass);
+  /// m, by how much modes move at most in a step for the forces of edges that only touch.
+  double rubbing(double chip) const;
   /// What edges meet, answered by questions until shifts agree, and the step that erases it.
   ProcessStep make_step();
   /// What teeth remove and bear whose cutter is shifted at the end of the step, m for each layer; forces on

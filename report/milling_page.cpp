@@ -3,6 +3,7 @@
 #include "core/index.hpp"
 #include "results/history_writer.hpp"
 #include "results/output_folder.hpp"
+#include "results/si_format.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,6 +11,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <string>
 #include <tuple>
 
 namespace cnem::report {
@@ -147,12 +149,12 @@ std::vector<Chart> milling_charts(const std::filesystem::path& folder, const res
   for (const std::size_t layer : {std::size_t{1}, 1 + layers / 2, layers}) {
     if (layer == before) continue;
     before = layer;
-    std::string name = results::split_column_name(surface.names[layer]).name;
-    left.series.push_back({.label = name.substr(name.rfind("at_") + 3),
+    const std::string name = results::split_column_name(surface.names[layer]).name;
+    const std::string height = name.substr(name.rfind("at_") + 3); // "0.796875_mm"
+    left.series.push_back({.label = results::number_format(std::stod(height), 3) + " mm",
                            .x = surface.column[0],
                            .y = surface.column[layer],
                            .colour = colour++});
-    std::replace(left.series.back().label.begin(), left.series.back().label.end(), '_', ' ');
   }
   charts.push_back(std::move(left));
   return charts;

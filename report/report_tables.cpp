@@ -124,7 +124,10 @@ ReportTable result_table(const results::RunStatus& status, const results::ShownU
   for (const auto& [name, value] : status.metrics) {
     const bool elsewhere = name.starts_with("cutting.") || name.starts_with("blanking.") ||
                            name.starts_with("springback.") || name.starts_with("experiment.");
-    if (!elsewhere) table.rows.emplace_back(words(name), units.format(value, status.unit_of(name), 6));
+    if (elsewhere) continue;
+    const bool flag = std::find(status.flags.begin(), status.flags.end(), name) != status.flags.end();
+    table.rows.emplace_back(words(name), flag ? (value != 0.0 ? "yes" : "no")
+                                              : units.format(value, status.unit_of(name), 6));
   }
   return table;
 }

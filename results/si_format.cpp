@@ -36,6 +36,8 @@ const std::vector<Scale>& scales() {
       {"Pa", {{0, 1, "Pa"}, {1e3, 1e3, "kPa"}, {1e5, 1e6, "MPa"}, {1e10, 1e9, "GPa"}}, 2},
       {"Pa m^0.5", {{0, 1, "Pa √m"}, {1e4, 1e6, "MPa √m"}}, 1},
       {"J/m^3", {{0, 1, "J/m³"}, {1e6, 1e9, "J/mm³"}}, 1},
+      {"m^3/s", {{0, 1e-6 / 60.0, "cm³/min"}}, 0},
+      {"rad/s", {{0, std::numbers::pi / 30.0, "rpm"}}, 0},
       {"rad", {{0, std::numbers::pi / 180.0, "°"}}, 0}};
   return all;
 }

@@ -16,7 +16,7 @@ struct DisplayUnit {
 };
 
 /// The unit in which people of forming read `magnitude` (in the SI unit `unit`), with a prefix that leaves
-/// few digits: mm, N/mm (kN/mm), J/mm, MPa, mm², J/mm³, MPa √m, °; s, N, J, W and Hz in steps of a thousand:
+/// few digits: mm, N/mm (kN/mm), J/mm, MPa, mm², J/mm³, MPa √m, °, rpm; s, N, J, W and Hz in steps of a thousand:
 /// (3e-6, "s") gives µs. Others ("", "K", "1/s") come back as they are, with raised exponents.
 DisplayUnit display_unit(double magnitude, std::string_view unit);
 

@@ -168,10 +168,11 @@ Exit calibrate(const Calibration& calibration, const BatchOptions& options) {
   Eigen::VectorXd place = best->course[best->best].place;
   const bool any_run = std::any_of(calibration.targets.begin(), calibration.targets.end(),
                                    [](const auto& target) { return target.runs() && target.fitted(); });
-  if (!any_run && evaluator.known(place)->good()) {
-    const std::optional<Eigen::VectorXd> least = least_squares_from(place, evaluator);
-    if (!least) return interrupted();
-    place = *least;
+  std::optional<Linearised> end;
+  if (evaluator.known(place)->good()) {
+    end = any_run ? few_steps_from(place, evaluator) : least_squares_from(place, evaluator);
+    if (!end) return interrupted();
+    place = end->place;
   }
   const Evaluation& found = *evaluator.known(place);
   if (found.good() && !evaluator.compare_left_out({place, result.searches.front().course.front().place}))
@@ -185,10 +186,8 @@ Exit calibrate(const Calibration& calibration, const BatchOptions& options) {
     return Exit::diverged;
   }
   result.best = found;
-  const std::optional<Eigen::MatrixXd> jacobian = jacobian_at(found.place, evaluator);
-  if (!jacobian) return interrupted();
-  result.inference = infer(calibration, found.residual, *jacobian, found.lengths, found.known_variance);
-  result.logarithmic = logarithmic_values(calibration, found.place, *jacobian);
+  result.inference = infer(calibration, found.residual, end->jacobian, found.lengths, found.known_variance);
+  result.logarithmic = logarithmic_values(calibration, found.place, end->jacobian);
   result.evaluations = evaluator.count();
   result.failures = evaluator.failures();
   write_files(folder, calibration_files(calibration, result, flow_bands(calibration, result, folder),

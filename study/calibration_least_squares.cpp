@@ -34,8 +34,6 @@ Eigen::VectorXd damped_step(const Eigen::MatrixXd& jacobian, const Eigen::Vector
   return Eigen::VectorXd::Zero(n);
 }
 
-} // namespace
-
 std::optional<Eigen::MatrixXd> jacobian_at(const Eigen::VectorXd& place, Evaluator& evaluator) {
   std::vector<Eigen::VectorXd> sides;
   for (Eigen::Index k = 0; k < place.size(); ++k)
@@ -60,7 +58,37 @@ std::optional<Eigen::MatrixXd> jacobian_at(const Eigen::VectorXd& place, Evaluat
   return jacobian;
 }
 
-std::optional<Eigen::VectorXd> least_squares_from(Eigen::VectorXd place, Evaluator& evaluator) {
+/// Steps with the same sensitivities, an evaluation each, while they promise to lessen the misfit. None after
+/// a signal.
+std::optional<Eigen::VectorXd> steps_with(const Linearised& at, Evaluator& evaluator) {
+  constexpr int most_steps = 4;
+  constexpr double least_gain = 1e-3; // of the misfit: no run is made for less
+  const auto change = [&](const Eigen::VectorXd& step) {
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(at.jacobian.rows());
+    for (Eigen::Index k = 0; k < step.size(); ++k)
+      if (step[k] != 0.0) sum += step[k] * at.jacobian.col(k);
+    return sum;
+  };
+  Eigen::VectorXd best = at.place;
+  double damping = 1e-4;
+  for (int k = 0; k < most_steps; ++k) {
+    const double misfit = evaluator.known(best)->misfit;
+    const Eigen::VectorXd residual = evaluator.known(best)->residual;
+    const Eigen::VectorXd next =
+        (best + damped_step(at.jacobian, residual, best, damping)).cwiseMax(0.0).cwiseMin(1.0);
+    if (!((residual + change(next - best)).squaredNorm() < (1.0 - least_gain) * misfit)) break;
+    if (!evaluator.evaluate({next})) return std::nullopt;
+    const Evaluation& there = *evaluator.known(next);
+    const bool better = there.good() && there.misfit < misfit && there.residual.size() == residual.size();
+    damping *= better ? 0.1 : 100.0;
+    if (better) best = next;
+  }
+  return best;
+}
+
+} // namespace
+
+std::optional<Linearised> least_squares_from(Eigen::VectorXd place, Evaluator& evaluator) {
   constexpr int most_steps = 30, most_trials = 6;
   constexpr double least_gain = 1e-4; // of the misfit, by a step that is hardly damped
   double damping = 1e-2;
@@ -83,7 +111,26 @@ std::optional<Eigen::VectorXd> least_squares_from(Eigen::VectorXd place, Evaluat
     constexpr double hardly = 1e-7;
     if (evaluator.known(place)->misfit > (1.0 - least_gain) * misfit && damping < hardly) break;
   }
-  return place;
+  std::optional<Eigen::MatrixXd> jacobian = jacobian_at(place, evaluator);
+  if (!jacobian) return std::nullopt;
+  return Linearised{std::move(place), std::move(*jacobian)};
+}
+
+std::optional<Linearised> few_steps_from(const Eigen::VectorXd& place, Evaluator& evaluator) {
+  constexpr int most_rounds = 3;
+  Linearised at{place, {}};
+  for (int round = 0; round <= most_rounds; ++round) {
+    std::optional<Eigen::MatrixXd> jacobian = jacobian_at(at.place, evaluator);
+    if (!jacobian) return std::nullopt;
+    at.jacobian = std::move(*jacobian);
+    if (round == most_rounds) break;
+    const std::optional<Eigen::VectorXd> next = steps_with(at, evaluator);
+    if (!next) return std::nullopt;
+    const double moved = (*next - at.place).cwiseAbs().maxCoeff();
+    at.place = *next;
+    if (moved <= difference_step) break;
+  }
+  return at;
 }
 
 } // namespace cnem::study

@@ -233,18 +233,19 @@ double MillingRun::still_chips() const {
   return thickest;
 }
 
-bool MillingRun::judge_vibration() {
+MillingRun::Disturbances MillingRun::judge_vibration() {
   const input::MachiningCase& milling = *input_.machining;
   const double spindle = milling.speed, teeth = static_cast<double>(milling.cut.cutter.teeth());
-  if (!process_.motion().steady()) return false; // periods differ though nothing chatters
+  if (!process_.motion().steady()) return Disturbances::unknown; // periods differ though nothing chatters
   status_.add_metric("milling.tooth_frequency[Hz]", teeth * spindle / machining::full_turn);
-  if (modes_.empty()) return false;
+  if (modes_.empty()) return Disturbances::unknown;
   const auto growth = vibration_.growth();
-  if (!growth) return false;
+  if (!growth) return Disturbances::unknown;
   status_.add_metric("milling.growth", growth->factor);
-  // Disturbances that neither die out nor are lost beside what the teeth force.
-  constexpr double grows = 0.999, felt = 0.1;
-  return growth->factor > grows && growth->size > felt * growth->vibration;
+  constexpr double shrinks = 0.999, felt = 0.1;
+  const bool small = growth->size <= felt * growth->vibration;
+  if (growth->factor > shrinks) return small ? Disturbances::last : Disturbances::grow;
+  return small ? Disturbances::die_out : Disturbances::last;
 }
 
 void MillingRun::judge() {
@@ -257,11 +258,13 @@ void MillingRun::judge() {
   status_.add_metric("milling.power[W]", steady.work / steady.time);
   status_.add_metric("milling.removal_rate[m^3/s]", steady.removed / steady.time);
   status_.add_metric("milling.thickest[m]", steady.thickest);
-  // Campomanes and Altintas (2003): chips a quarter thicker than without vibration are chatter.
+  // Campomanes and Altintas (2003): chips a quarter thicker than without vibration are chatter; but for those
+  // that the teeth alone force, which uneven ones do near a resonance.
   constexpr double chatter = 1.25;
-  const bool swings = judge_vibration();
-  const bool thick = still_ > 0.0 && steady.thickest > chatter * still_;
-  const bool chatters = !modes_.empty() && (thick || swings);
+  const Disturbances disturbances = judge_vibration();
+  const bool thick = !modes_.empty() && still_ > 0.0 && steady.thickest > chatter * still_;
+  const bool chatters =
+      disturbances == Disturbances::grow || (thick && disturbances != Disturbances::die_out);
   std::string tone;
   if (chatters && process_.motion().steady())
     if (const auto peak = vibration_.chatter(milling.speed)) {
@@ -322,14 +325,26 @@ void MillingRun::judge() {
                                     {"kinetic", ledger.kinetic},
                                     {"elastic", ledger.elastic}})
     status_.add_metric(fmt::format("milling.energy.{}[J]", name), value);
-  status_.reason =
-      fmt::format("{}; at most {} along x, {} along y; {}",
-                  modes_.empty() ? "a rigid cut"
-                  : thick    ? fmt::format("chatter{}: chips {} times as thick as without vibration", tone,
-                                           results::number_format(steady.thickest / still_, 3))
-                  : chatters ? fmt::format("chatter{}: disturbances grow", tone)
-                             : "no chatter",
-                  si_format(steady.force.x(), "N"), si_format(steady.force.y(), "N"), surface);
+  const bool cuts = steady.removed > 0.0;
+  if (!cuts)
+    warn(input_
+             .error(milling.passes.empty() ? "milling.length" : "milling.passes",
+                    fmt::format("no tooth meets the workpiece in {}, expected a path through it",
+                                milling.passes.empty() ? "the turns that stand for the cut"
+                                                       : "the middle of the last pass"))
+             .what());
+  const std::string thicker = thick ? fmt::format("chips {} times as thick as without vibration",
+                                                  results::number_format(steady.thickest / still_, 3))
+                                    : "";
+  const std::string verdict =
+      !cuts               ? "nothing is cut"
+      : modes_.empty()    ? "a rigid cut"
+      : chatters && thick ? fmt::format("chatter{}: {}", tone, thicker)
+      : chatters          ? fmt::format("chatter{}: disturbances grow", tone)
+      : thick ? fmt::format("no chatter: disturbances die out; what the teeth force makes {}", thicker)
+              : "no chatter";
+  status_.reason = fmt::format("{}; at most {} along x, {} along y; {}", verdict,
+                               si_format(steady.force.x(), "N"), si_format(steady.force.y(), "N"), surface);
 }
 
 void MillingRun::write_files() {

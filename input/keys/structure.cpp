@@ -264,7 +264,8 @@ void add_removal(Keys& k) {
   k.add("removal.force.frequency", quantity, "f of amplitude · cos(2π f t).")
       .unit(d::rate)
       .in(not_negative)
-      .fallback("\"0 Hz\"");
+      .fallback("\"0 Hz\"")
+      .example("\"3343 Hz\"");
 }
 
 } // namespace

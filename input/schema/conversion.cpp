@@ -23,8 +23,8 @@ void check_range(double number, const Value& value, const Key& key) {
                           fmt::format("found {}, expected a finite number", value.show()));
   if (key.range.contains(number)) return;
   throw ConversionError(Mistake::range, value.where,
-                        fmt::format("found {}, expected {} {}", value.show(), describe(key.dimension).name,
-                                    range_text(key.range, key.dimension)));
+                        fmt::format("found {}, expected {} {}", value.show(), key.quantity().name,
+                                    range_text(key.range, key.dimension, key.example)));
 }
 
 /// Whether a text can be repeated in a message of one line.
@@ -57,7 +57,8 @@ std::vector<double> numbers(const Value& value, const Key& key, const Dimension&
     if (!dimension.dimensionless())
       throw ConversionError(Mistake::unit, value.where,
                             fmt::format("found {} without a unit, expected {} such as {}", value.show(),
-                                        describe(dimension).name, example_of(key, dimension)));
+                                        describe(dimension, example_of(key, dimension)).name,
+                                        example_of(key, dimension)));
     result = {value.kind == Kind::integer ? static_cast<double>(value.integer) : value.real};
   } else {
     wrong_type(value, key);
@@ -70,10 +71,10 @@ std::vector<double> numbers(const Value& value, const Key& key, const Dimension&
 double number(const Value& value, const Key& key, const Dimension& dimension) {
   const std::vector<double> list = numbers(value, key, dimension);
   if (list.size() == 1) return list.front();
-  const DimensionText wanted = describe(dimension);
+  const std::string example = example_of(key, dimension);
   throw ConversionError(Mistake::type, value.where,
-                        fmt::format("found {} numbers in {}, expected one: {} such as \"{}\"", list.size(),
-                                    value.show(), wanted.name, wanted.example));
+                        fmt::format("found {} numbers in {}, expected one: {} such as {}", list.size(),
+                                    value.show(), describe(dimension, example).name, example));
 }
 
 /// n numbers that belong together: "x y mm", or an array of n quantities.

@@ -18,8 +18,7 @@ template<class List, class Write> std::string array(const List& list, const Writ
 class ValueWriter {
 public:
   explicit ValueWriter(const Key& key)
-      : unit_(key.dimension.dimensionless() ? "" : describe(key.dimension).si_unit),
-        components_(key.components) {}
+      : unit_(key.dimension.dimensionless() ? "" : key.quantity().si_unit), components_(key.components) {}
 
   std::string operator()(std::monostate) const { return "\"\""; }
   std::string operator()(bool value) const { return value ? "true" : "false"; }

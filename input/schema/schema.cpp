@@ -6,13 +6,13 @@
 
 namespace cnem::input {
 
-std::string range_text(const Range& range, const Dimension& dimension) {
+std::string range_text(const Range& range, const Dimension& dimension, std::string_view example) {
   const bool angle = dimension == dimension::angle;
   const auto bound = [&](double x) {
     return angle ? fmt::format("{:.12g}", x * 180.0 / std::numbers::pi) : fmt::format("{}", x);
   };
   const std::string low = bound(range.low), high = bound(range.high),
-                    unit = angle ? "deg" : describe(dimension).si_unit;
+                    unit = angle ? "deg" : describe(dimension, example).si_unit;
   const std::string suffix = unit.empty() || unit == "1" ? "" : " " + unit;
   if (range.low == anything.low) return fmt::format("{} {}{}", range.high_open ? "<" : "≤", high, suffix);
   if (range.high == anything.high) return fmt::format("{} {}{}", range.low_open ? ">" : "≥", low, suffix);
@@ -41,7 +41,7 @@ std::string Key::example_text() const {
 }
 
 std::string Key::expectation() const {
-  const DimensionText unit = describe(dimension);
+  const DimensionText unit = quantity();
   const std::string zeros = components == 3 ? "0 0 " : "0 ";
   const std::string such_as = " such as " + example_text();
   switch (type) {

@@ -43,7 +43,7 @@ enum class Family { everywhere, bodies, milling, structures, machining };
 enum class Presence { required, fallback, optional };
 
 /// "> 0 m", "in [0, 1]", "≥ 1"; angles in degrees, as they are written: "in [-60, 60] deg".
-std::string range_text(const Range& range, const Dimension& dimension);
+std::string range_text(const Range& range, const Dimension& dimension, std::string_view example = "");
 
 /// A key only makes sense when a sibling has one of these values.
 struct Condition {
@@ -75,7 +75,9 @@ struct Key {
   bool alone = false;         ///< of named tables: a single one may stand in place of all
   std::string elsewhere = {}; ///< of a required key: what may bring it instead of the file, in words
 
-  std::string name() const;   ///< last part of the path
+  std::string name() const; ///< last part of the path
+  /// Name and unit of its dimension, as its example has them.
+  DimensionText quantity() const { return describe(dimension, example); }
   std::string parent() const; ///< path of the table it belongs to; "" at the top
   /// What a value of this key looks like, for messages and documents: `a velocity such as "11 m/s"`.
   std::string expectation() const;

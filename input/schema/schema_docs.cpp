@@ -197,7 +197,7 @@ std::string needed_keys() {
 }
 
 std::string kind(const Key& key) {
-  std::string unit = describe(key.dimension).si_unit;
+  std::string unit = key.quantity().si_unit;
   if (key.revolution) unit += fmt::format(" (axisymmetric: {})", describe(*key.revolution).si_unit);
   switch (key.type) {
   case Type::table:
@@ -284,7 +284,8 @@ std::string meaning(const Key& key) {
                                               : "Three-dimensional analyses only.");
   if (!key.when.sibling.empty())
     parts.push_back(fmt::format("With `{}` = `{}`.", key.when.sibling, fmt::join(key.when.values, "` or `")));
-  if (key.range.bounded()) parts.push_back(fmt::format("Must be {}.", range_text(key.range, key.dimension)));
+  if (key.range.bounded())
+    parts.push_back(fmt::format("Must be {}.", range_text(key.range, key.dimension, key.example)));
   if (!key.example.empty()) parts.push_back(fmt::format("E.g. `{}`.", key.example));
   return fmt::format("{}", fmt::join(parts, " "));
 }

@@ -143,7 +143,7 @@ Json object_schema(const std::string& pattern, Needs needs) {
       description += '.';
     }
     if (!description.empty()) schema["description"] = description;
-    if (!key->dimension.dimensionless()) schema["x-si-unit"] = describe(key->dimension).si_unit;
+    if (!key->dimension.dimensionless()) schema["x-si-unit"] = key->quantity().si_unit;
     if (key->revolution) schema["x-si-unit-axisymmetric"] = describe(*key->revolution).si_unit;
     if (!key->fallback.empty()) schema["default"] = parsed_toml(key->fallback);
     if (!key->example.empty())

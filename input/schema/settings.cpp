@@ -233,7 +233,12 @@ std::string_view kinematics_of(const Value& document) { return analysis_of(docum
 Family family_of(const Value& document) {
   const std::string_view type = analysis_of(document, "type");
   if (type == "modes" || type == "removal") return Family::structures;
-  return type == "stability" || type == "milling" ? Family::milling : Family::bodies;
+  if (type == "stability" || type == "milling") return Family::milling;
+  const std::vector<std::string>& known = find_key("analysis.type")->choices;
+  if (type.empty() || std::find(known.begin(), known.end(), type) != known.end()) return Family::bodies;
+  // Misspelt: what else the case has is no mistake.
+  if (document.find("milling") || document.find("cutter")) return Family::milling;
+  return document.find("part") || document.find("shaft") ? Family::structures : Family::bodies;
 }
 
 bool valid_name(std::string_view name) {

@@ -70,6 +70,7 @@ const DimensionName named_dimensions[] = {
     {dimension::acceleration, "an acceleration", "m/s2", "9.81 m/s2"},
     {dimension::angular_velocity, "an angular velocity", "rad/s", "100 rad/s"},
     {dimension::rate, "a rate", "1/s", "1 /s"},
+    {dimension::rate, "a frequency", "Hz", "922 Hz"},
     {dimension::density, "a density", "kg/m3", "7850 kg/m3"},
     {dimension::surface_energy, "an energy per area", "J/m2", "20 kJ/m2"},
     {dimension::pressure, "a stress or pressure", "Pa", "253 MPa"},
@@ -291,10 +292,17 @@ double Unit::to_si(double value) const {
   return result + offset;
 }
 
-DimensionText describe(const Dimension& dimension) {
-  for (const DimensionName& known : named_dimensions)
-    if (known.dimension == dimension)
-      return {std::string(known.name), std::string(known.si_unit), std::string(known.example)};
+DimensionText describe(const Dimension& dimension) { return describe(dimension, ""); }
+
+DimensionText describe(const Dimension& dimension, std::string_view value) {
+  const DimensionName* found = nullptr;
+  for (const DimensionName& known : named_dimensions) {
+    if (known.dimension != dimension) continue;
+    const std::string_view symbol = known.si_unit.substr(0, known.si_unit.find('/'));
+    if (!found || (!symbol.empty() && symbol != "1" && value.find(symbol) != std::string_view::npos))
+      found = &known;
+  }
+  if (found) return {std::string(found->name), std::string(found->si_unit), std::string(found->example)};
   std::string unit;
   const char* symbol[] = {"m", "kg", "s", "K", "rad"};
   for (std::size_t k = 0; k < dimension.halves.size(); ++k)
@@ -324,7 +332,8 @@ std::vector<double> parse_quantities(std::string_view text, const Dimension& exp
   const auto skip_spaces = [&] {
     while (!rest.empty() && (rest.front() == ' ' || rest.front() == '\t')) rest.remove_prefix(1);
   };
-  const std::string expectation = fmt::format("expected {} such as {}", describe(expected).name, example);
+  const std::string expectation =
+      fmt::format("expected {} such as {}", describe(expected, example).name, example);
   for (skip_spaces(); !rest.empty(); skip_spaces()) {
     const auto [value, length] = leading_number(rest);
     if (length > 0) refuse_comma(text, rest.substr(length));
@@ -344,7 +353,7 @@ std::vector<double> parse_quantities(std::string_view text, const Dimension& exp
     throw UnitError(fmt::format("found '{}' without a unit, {}", text, expectation));
   if (unit.dimension != expected)
     throw UnitError(
-        fmt::format("found '{}', which is {}, {}", text, describe(unit.dimension).name, expectation));
+        fmt::format("found '{}', which is {}, {}", text, describe(unit.dimension, rest).name, expectation));
   for (double& value : values) {
     value = unit.to_si(value);
     if (!std::isfinite(value))

@@ -56,6 +56,8 @@ struct DimensionText {
 
 /// For dimensions that no case uses the name is "a quantity in …".
 DimensionText describe(const Dimension& dimension);
+/// Of a dimension that has two names, N/m and J/m2, or Hz and 1/s, the one whose unit stands in a value.
+DimensionText describe(const Dimension& dimension, std::string_view value);
 
 /// A unit such as "W/(m K)": SI value = value · factor · 10^power + offset. Powers of ten stay apart so that
 /// "5.1 mm" and "0.0051 m" are the same bits. Only degC has an offset.

@@ -24,7 +24,89 @@ results::RunStatus milled_at(const std::string& depth, const std::filesystem::pa
   return results::read_status(folder);
 }
 
+/// Four uneven teeth in titanium, which force vibrations that come back after a turn.
+const char* const uneven = R"toml(
+[analysis]
+type = "milling"
+[cutter]
+diameter = "16 mm"
+teeth = 4
+helix = "35 deg"
+pitch = "80 95 85 100 deg"
+[cutting.forces]
+law = "linear"
+Ktc = "1650 MPa"
+Krc = "480 MPa"
+Kte = "24 N/mm"
+Kre = "43 N/mm"
+[milling]
+speed = "2400 rpm"
+feed = "0.06 mm"
+axial_depth = "1 mm"
+radial_depth = "4 mm"
+side = "down"
+length = "4.8 mm"
+start = "inside"
+[dexels]
+layers = 4
+[modes.x1]
+frequency = "640 Hz"
+damping = 0.03
+stiffness = "8 N/um"
+direction = "1 0 0"
+[modes.x2]
+frequency = "1480 Hz"
+damping = 0.022
+stiffness = "12 N/um"
+direction = "1 0 0"
+[modes.y1]
+frequency = "702 Hz"
+damping = 0.028
+stiffness = "7.2 N/um"
+direction = "0 1 0"
+)toml";
+
+results::RunStatus milled(const std::filesystem::path& folder, const std::vector<std::string>& set) {
+  std::ofstream(folder / "cut.toml") << uneven;
+  const input::Case input = input::read_case((folder / "cut.toml").string(), set);
+  EXPECT_EQ(app::run(input, {.output = folder / "results", .force = true, .threads = 1, .version = "test"}),
+            Exit::done);
+  return results::read_status(folder / "results");
+}
+
 } // namespace
+
+TEST(MillingFiles, ThickChipsThatTeethForceAreNoChatter) {
+  const TemporaryFolder folder("forced");
+  const results::RunStatus cut = milled(folder.path(), {});
+  EXPECT_GT(cut.metric("milling.chip_growth").value_or(0.0), 1.25) << "more than Campomanes allows";
+  EXPECT_LT(cut.metric("milling.growth").value_or(1.0), 0.9);
+  EXPECT_EQ(cut.metric("milling.chatter"), 0.0) << cut.reason;
+  EXPECT_NE(cut.reason.find("what the teeth force makes chips 1.3"), std::string::npos) << cut.reason;
+  const results::RunStatus deep = milled(folder.path(), {"milling.axial_depth=2.2 mm"});
+  EXPECT_EQ(deep.metric("milling.chatter"), 1.0) << deep.reason;
+}
+
+TEST(MillingFiles, APathThatMissesIsTold) {
+  const TemporaryFolder folder("missed");
+  const results::RunStatus cut = milled(folder.path(), {"milling.start=outside", "milling.length=0.1 mm"});
+  EXPECT_EQ(cut.reason.find("nothing is cut"), 0U) << cut.reason;
+  EXPECT_TRUE(std::any_of(cut.warnings.begin(), cut.warnings.end(), [](const std::string& warning) {
+    return warning.find("no tooth meets the workpiece") != std::string::npos;
+  }));
+}
+
+/// Edges that only touch bear their edge forces or do not, from one question to the next: no failure of a
+/// cut.
+TEST(MillingFiles, EdgesThatOnlyTouchMayRub) {
+  const TemporaryFolder folder("touch");
+  const results::RunStatus cut =
+      milled(folder.path(), {"milling.feed=0.02 mm", "milling.radial_depth=0.1 mm", "milling.length=1.2 mm",
+                             "cutting.forces.Kre=120 N/mm", "dexels.steps=360"});
+  EXPECT_TRUE(std::any_of(cut.warnings.begin(), cut.warnings.end(), [](const std::string& warning) {
+    return warning.find("forces and vibration do not agree in") != std::string::npos;
+  }));
+}
 
 TEST(MillingFiles, SpectraAndStatusTellChatterFromHarmonics) {
   const TemporaryFolder folder("chatter");

@@ -136,6 +136,9 @@ TEST(Experiment, file_metrics_and_page_tell_the_difference) {
   results::RunStatus status;
   for (const auto& [metric, number] : metrics) status.add_metric(metric, number);
   EXPECT_TRUE(report::result_table(status, {}).rows.empty()) << "they have a section of their own";
+  status.add_metric("stability.stable", 1.0);
+  status.flags.emplace_back("stability.stable");
+  EXPECT_EQ(report::result_table(status, {}).rows.at(0).second, "yes");
   std::ofstream(folder.path() / results::files::experiment) << "{}";
   try {
     read_experiments(folder.path());

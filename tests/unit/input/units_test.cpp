@@ -1,4 +1,5 @@
 #include "input/schema/nearest.hpp"
+#include "input/schema/schema.hpp"
 #include "input/schema/units.hpp"
 
 #include <cmath>
@@ -87,6 +88,13 @@ TEST(Units, SeveralNumbersShareAUnit) {
   EXPECT_EQ(parse_quantities("1 2 1/s", d::rate), (std::vector{1.0, 2.0}));
 }
 
+TEST(Units, OfTwoNamesAKeyHasTheOneOfItsExample) {
+  EXPECT_EQ(find_key("modes.*.stiffness")->quantity().si_unit, "N/m");
+  EXPECT_EQ(find_key("modes.*.frequency")->quantity().name, "a frequency");
+  EXPECT_EQ(find_key("cutting.forces.Kte")->quantity().name, "a force per length");
+  EXPECT_EQ(find_key("materials.*.damage.fracture_energy")->quantity().si_unit, "J/m2");
+}
+
 TEST(Units, MessagesSayWhatWasFoundAndExpected) {
   EXPECT_EQ(message_of("11 mm", d::velocity),
             "found '11 mm', which is a length, expected a velocity such as \"11 m/s\"");
@@ -98,6 +106,8 @@ TEST(Units, MessagesSayWhatWasFoundAndExpected) {
   EXPECT_TRUE(has(message_of("11 MPaa", d::pressure), "unknown unit 'MPaa' (did you mean 'MPa'?)"));
   EXPECT_TRUE(
       has(message_of("30 1/s", d::angular_velocity), "which is a rate, expected an angular velocity"));
+  EXPECT_TRUE(has(message_of("1650 N/mm", d::pressure), "which is a force per length, expected a stress"));
+  EXPECT_TRUE(has(message_of("20 kJ/m2", d::pressure), "which is an energy per area, expected a stress"));
   EXPECT_TRUE(has(message_of("5 W/m K", d::conductivity), "ambiguous"));
   EXPECT_TRUE(has(message_of("5 J/kg*K", d::specific_heat), "ambiguous"));
   EXPECT_TRUE(has(message_of("5 kg m", d::velocity), "a quantity in m kg"));

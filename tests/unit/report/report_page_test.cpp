@@ -234,6 +234,8 @@ TEST(ShownUnits, are_those_of_the_trade_by_size) {
   EXPECT_EQ(shown(2.99e7, "N/m"), "29.9 kN/mm");
   EXPECT_EQ(shown(2.42e3, "J/m"), "2.42 J/mm");
   EXPECT_EQ(shown(14.6e3, "N"), "14.6 kN");
+  EXPECT_EQ(shown(800.0 * 3.14159265358979 / 3.0, "rad/s"), "8000 rpm");
+  EXPECT_EQ(shown(5e-7, "m^3/s"), "30 cm³/min");
   EXPECT_EQ(shown(0.3e-3, "m"), "0.3 mm");
   EXPECT_EQ(shown(4e-6, "m"), "4 µm");
   EXPECT_EQ(shown(0.0, "m"), "0 mm");
