@@ -16,8 +16,8 @@ struct DisplayUnit {
 };
 
 /// The unit in which people of forming read `magnitude` (in the SI unit `unit`), with a prefix that leaves
-/// few digits: mm, N/mm (kN/mm), J/mm, MPa, mm², J/mm³, MPa √m, °, rpm; s, N, J, W and Hz in steps of a thousand:
-/// (3e-6, "s") gives µs. Others ("", "K", "1/s") come back as they are, with raised exponents.
+/// few digits: mm, N/mm (kN/mm), J/mm, MPa, mm², J/mm³, MPa √m, °, rpm; s, N, J, W and Hz in steps of a
+/// thousand: (3e-6, "s") gives µs. Others ("", "K", "1/s") come back as they are, with raised exponents.
 DisplayUnit display_unit(double magnitude, std::string_view unit);
 
 /// A unit as it is printed: "J/mm³" of "J/mm^3" or "J/mm3", "°C" of "degC", "µm" of "um".
