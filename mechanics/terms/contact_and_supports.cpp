@@ -128,7 +128,7 @@ private:
   Energy recovery_{"contact_recovery", EnergyKind::received}; ///< pushing nodes out of tools
   Energy supports_{"support_work", EnergyKind::received};     ///< of prescribed boundary motion
   bool sprung_tools_;
-  std::vector<double> melting_; ///< [material] K
+  std::vector<double> melting_;                                  ///< [material] K
   std::vector<IndexedVector<BoundaryNodeIndex, double>> window_; ///< [activity] as contact takes it
 };
 
