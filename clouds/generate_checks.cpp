@@ -5,15 +5,17 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <numbers>
 
 namespace cnem::clouds {
 
 namespace {
 
 constexpr double clearance = 0.25;   // over h
-constexpr double least_slope = 0.08; // sine of the angle at which a crack may end on the boundary
+constexpr double least_sine = 0.087; // of the angle at which a crack may leave the boundary, 5 degrees
 
 struct Segment {
   Vec2 a, b;
@@ -47,56 +49,53 @@ std::vector<Segment> segments(const Crack& crack) {
   return result;
 }
 
-/// Shortens a segment by some spacings, at most half its length, from its end a.
-Segment without_start(const Segment& s, const SpacingField& spacing, double spacings = 1.0) {
+/// Shortens a segment by one spacing, at most half its length, from its end a.
+Segment without_start(const Segment& s, const SpacingField& spacing) {
   const double length = (s.b - s.a).norm();
-  return {s.a + (s.b - s.a) * std::min(0.5, spacings * spacing.at(s.a) / length), s.b};
+  return {s.a + (s.b - s.a) * std::min(0.5, spacing.at(s.a) / length), s.b};
 }
 
-/// The parts of a crack that have to keep away from the boundary, and how far, over h: nearer to an end that
-/// is open less, as far as a crack that leaves the boundary at the least angle has come.
-struct Kept {
-  std::vector<Segment> parts;
-  double clearance;
-};
-Kept kept_away(const Crack& crack, const std::array<bool, 2>& open, const SpacingField& spacing,
-               double spacings) {
-  Kept kept{segments(crack), clearance};
-  const auto shorten = [&](const Segment& from) {
-    const Segment rest = without_start(from, spacing, spacings);
-    kept.clearance = std::min(kept.clearance, least_slope * (rest.a - from.a).norm() / spacing.at(from.a));
-    return rest;
-  };
-  if (open[0]) kept.parts.front() = shorten(kept.parts.front());
-  if (open[1]) {
-    const Segment back = shorten({kept.parts.back().b, kept.parts.back().a});
-    kept.parts.back() = {back.b, back.a};
-  }
-  return kept;
+/// Whether a segment that starts on the straight side of an edge leaves it, at what angle ever: then only the
+/// angle tells how far apart they are. Throws where it is below the least.
+bool leaves_side(const Crack& crack, const Segment& from, const Segment& edge, const std::string& piece) {
+  const Vec2 side = (edge.b - edge.a).normalized();
+  constexpr double straight = 1e-3; // of the edge
+  if (std::abs(cross(side, from.a - edge.a)) > straight * (edge.b - edge.a).norm()) return false;
+  const double sine = std::abs(cross(side, (from.b - from.a).normalized()));
+  if (sine < least_sine)
+    throw GeometryError(
+        fmt::format("crack '{}' leaves the boundary '{}' at {} at {:.3g} degrees; expected 5 degrees or more",
+                    crack.name, piece, place_text(from.a), std::asin(sine) * 180.0 / std::numbers::pi));
+  return true;
 }
 
 void check_against_boundary(const Crack& crack, const std::array<bool, 2>& open, const SpacingField& spacing,
                             const Cloud<2>& outline, const voronoi::EdgeTree& tree) {
-  for (const double spacings : {1.0, clearance / least_slope}) {
-    const Kept kept = kept_away(crack, open, spacing, spacings);
-    for (const Segment& part : kept.parts) {
-      for (const Facet<2>& f : outline.facets) {
-        const Segment edge{outline.position[std::size_t(f.node[0])],
-                           outline.position[std::size_t(f.node[1])]};
-        const Approach gap = segment_to_segment(part, edge);
-        if (gap.distance < kept.clearance * spacing.at(gap.where))
-          throw GeometryError(fmt::format(
-              "crack '{}' {} the boundary '{}' at {}; expected it to keep a quarter of the spacing "
-              "({:.3g} m) away, or to end exactly on it at 5 degrees or more",
-              crack.name,
-              gap.distance > 0.0 ? fmt::format("comes within {:.3g} m of", gap.distance) : "crosses",
-              outline.piece_names[f.piece], place_text(gap.where), clearance * spacing.at(gap.where)));
-      }
-      for (const Vec2& x : {part.a, part.b})
-        if (!tree.inside(x))
-          throw GeometryError(
-              fmt::format("crack '{}' leaves the domain: {} is outside", crack.name, place_text(x)));
+  std::vector<Segment> parts = segments(crack);
+  const Segment first = parts.front(), last{parts.back().b, parts.back().a};
+  if (open[0]) parts.front() = without_start(parts.front(), spacing);
+  if (open[1]) {
+    const Segment back = without_start({parts.back().b, parts.back().a}, spacing);
+    parts.back() = {back.b, back.a};
+  }
+  for (const Segment& part : parts) {
+    for (const Facet<2>& f : outline.facets) {
+      const Segment edge{outline.position[std::size_t(f.node[0])], outline.position[std::size_t(f.node[1])]};
+      const Approach gap = segment_to_segment(part, edge);
+      if (gap.distance >= clearance * spacing.at(gap.where)) continue;
+      const std::string& piece = outline.piece_names[f.piece];
+      if (open[0] && &part == &parts.front() && leaves_side(crack, first, edge, piece)) continue;
+      if (open[1] && &part == &parts.back() && leaves_side(crack, last, edge, piece)) continue;
+      throw GeometryError(fmt::format(
+          "crack '{}' {} the boundary '{}' at {}; expected it to keep a quarter of the spacing "
+          "({:.3g} m) away, or to end exactly on it",
+          crack.name, gap.distance > 0.0 ? fmt::format("comes within {:.3g} m of", gap.distance) : "crosses",
+          piece, place_text(gap.where), clearance * spacing.at(gap.where)));
     }
+    for (const Vec2& x : {part.a, part.b})
+      if (!tree.inside(x))
+        throw GeometryError(
+            fmt::format("crack '{}' leaves the domain: {} is outside", crack.name, place_text(x)));
   }
 }
 

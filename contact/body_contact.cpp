@@ -72,15 +72,6 @@ int winding_number(const Surface<2>& surface, PlacesOnBoundary<2> position, cons
   return turns;
 }
 
-/// Whether x is on the boundary itself, where it runs round x by half.
-bool on_boundary(const Surface<2>& surface, PlacesOnBoundary<2> position, const Vec2& x) {
-  for (const FacetIndex f : surface.facets.indices()) {
-    const FacetView facet(surface, f, position);
-    if ((facet.nearest(x) - x).norm() < rounding * facet.length) return true;
-  }
-  return false;
-}
-
 /// Whether a node and a facet are on the two faces of a cohesive interface.
 bool were_bonded(const Bonds& bonds, const Surface<2>& surface, BoundaryNodeIndex node, FacetIndex facet) {
   if (bonds.empty()) return false;
@@ -188,11 +179,11 @@ template<> void BodyContact<2>::list(const Surface<2>& surface) {
       const double reach = skin_ + (were_bonded(bonds_, surface, b, f) ? pressed : 0.0);
       if ((foot - listed_[b]).norm() > reach) continue;
       if (facet.gap(listed_[b]) < -rounding * facet.length) {
-        const Vec2 between = 0.5 * (foot + listed_[b]);
+        constexpr double inwards = 1e-6; // off the side that the node may share with the facet
+        const Vec2 between = 0.5 * (foot + listed_[b]) + inwards * (facet.a + 0.5 * facet.edge - foot);
         const int bodies = winding_number(surface, listed_, between);
         const double place = facet.place(listed_[b]);
-        const bool round_a_corner =
-            bodies == 0 && (place < 0.0 || place > 1.0) && !on_boundary(surface, listed_, between);
+        const bool round_a_corner = bodies == 0 && (place < 0.0 || place > 1.0);
         if (bodies < 2 && !round_a_corner) continue;
       }
       pairs_.push_back({b, f, Vec2::Zero()});

@@ -147,7 +147,9 @@ void add_domain(Keys& k) {
         "A crack with two faces: the boundary pieces `NAME+` (material on the left of the path) and `NAME-`; "
         "`NAME` stands for both.");
   k.add("domain.cracks.*.points", vectors,
-        "Polyline inside the domain; its first or last point may lie on the boundary, then it is open there.")
+        "Polyline inside the domain; its first or last point may lie on the boundary, then it is open there, "
+        "and "
+        "leaves the boundary at 5° or more.")
       .unit(d::length)
       .required()
       .example("[\"8 5 mm\", \"12 5 mm\"]");

@@ -1,6 +1,7 @@
 // Cracks in generated clouds and node lists.
 #include "generate_shapes.hpp"
 
+#include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
 
@@ -127,16 +128,27 @@ TEST(GenerateCracks, TipsCanBeGraded) {
   EXPECT_LT(quality.grading_max, 1.8);
 }
 
-// A fibre that rises at 5 degrees meets the free surface at that angle.
+// A fibre that rises at 5 degrees meets the free surface at that angle, fine cells at its mouth or not.
 TEST(GenerateCracks, EndOnTheBoundaryAtASmallAngle) {
-  for (const double degrees : {5.0, 8.0, 13.0, 172.0}) {
-    const double angle = degrees * std::numbers::pi / 180.0;
-    const Vec2 mouth{1.0, 1.0}, tip = mouth - 0.6 * Vec2(std::cos(angle), std::sin(angle));
-    const SpacingField spacing{0.05, {}};
-    const Cloud<2> cloud = generate_cloud(plate_with({{"slit", {mouth, tip}}}), spacing, {}).cloud;
-    SCOPED_TRACE(degrees);
-    expect_sound(cloud, 2.0);
-  }
+  const Vec2 mouth{1.0, 1.0};
+  for (const double degrees : {5.0, 8.0, 13.0, 172.0})
+    for (const SpacingField& spacing :
+         {SpacingField{0.05, {}}, SpacingField{0.05, {near_points({mouth}, 0.01)}}}) {
+      SCOPED_TRACE(degrees);
+      const double angle = degrees * std::numbers::pi / 180.0;
+      const Vec2 tip = mouth - 0.6 * Vec2(std::cos(angle), std::sin(angle));
+      expect_sound(generate_cloud(plate_with({{"slit", {mouth, tip}}}), spacing, {}).cloud, 2.0);
+    }
+}
+
+TEST(GenerateCracks, KeepAwayFromHolesBesideTheirMouth) {
+  DomainShape plate = plate_with({{"slit", {{0.8, 0}, {0.8, 0.4}}}});
+  const auto refused = [&](double gap) {
+    plate.holes = {circle({0.89 + gap, 0.15}, 0.09, "hole")};
+    return error_of([&] { generate_cloud(plate, {0.05, {}}, {}); });
+  };
+  EXPECT_PRED2(contains, refused(0.008), "crack 'slit' comes within");
+  EXPECT_EQ(refused(0.03), "no error");
 }
 
 TEST(GenerateCracks, BadCracksAreExplained) {
@@ -152,7 +164,10 @@ TEST(GenerateCracks, BadCracksAreExplained) {
   EXPECT_PRED2(contains, error({{"away", {{2.7, 0.5}, {3.3, 0.6}}}}), "crack 'away' leaves the domain");
   EXPECT_PRED2(contains, error({{"near", {{0.7, 0.01}, {0.9, 0.5}}}}),
                "comes within 0.01 m of the boundary 'bottom'");
-  EXPECT_PRED2(contains, error({{"flat", {{0.7, 0}, {1.4, 0.05}}}}), "at 5 degrees or more");
+  EXPECT_PRED2(contains, error({{"flat", {{0.7, 0}, {1.4, 0.05}}}}),
+               "at 4.09 degrees; expected 5 degrees or more");
+  EXPECT_PRED2(contains, error({{"low", {{1, 0}, {1, 0.03}, {1.4, 0.002}}}}), "of the boundary 'bottom'");
+  EXPECT_PRED2(contains, error({{"back", {{1, 0}, {1, 0.3}, {1.4, 0.01}}}}), "of the boundary 'bottom'");
   EXPECT_PRED2(contains, error({{"knot", {{0.5, 0.5}, {1, 0.5}, {1, 0.7}, {0.7, 0.3}}}}),
                "touches itself at");
   EXPECT_PRED2(contains, error({{"fold", {{0.5, 0.5}, {1, 0.5}, {0.5, 0.51}}}}), "sharp turns");

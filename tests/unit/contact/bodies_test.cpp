@@ -66,16 +66,23 @@ TEST(Bodies, a_thin_body_does_not_touch_its_own_far_side) {
 }
 
 // The way from a node to the corner of its own side runs along the side: there is no gap round the corner.
+// The side may have nodes between, and a dent.
 TEST(Bodies, a_wedge_does_not_touch_the_side_that_it_shares_a_corner_with) {
-  Masses scene;
-  for (const Vec2& x : {Vec2(0, 0.5), Vec2(1, 0.9), Vec2(1, 1), Vec2(0, 1 + 1e-9)}) scene.add(x, 1.0, {0, 0});
-  scene.v[1][3] = -1e-5;
-  for (int i = 0; i < 4; ++i) scene.facets.push_back({{as<NodeIndex>(i), as<NodeIndex>((i + 1) % 4)}, {}});
-  let_bodies_touch(scene, 0.0);
-  for (int n = 0; n < 10; ++n) scene.step(1e-3);
-  ASSERT_LT(scene.position(3).y(), 1.0);
-  EXPECT_EQ(scene.contact->body_result().total.workpiece, 0.0);
-  EXPECT_EQ(scene.contact->body_result().total.recovery, 0.0);
+  for (const double dent : {0.0, 1e-8}) {
+    Masses scene;
+    const std::vector<Vec2> corner{{0, 0.5},         {1, 0.9}, {1 - dent, 0.93},
+                                   {1 - dent, 0.97}, {1, 1},   {0, 1 + 1e-9}};
+    const int nodes = int(corner.size());
+    for (const Vec2& x : corner) scene.add(x, 1.0, {0, 0});
+    scene.v[1].back() = -1e-5;
+    for (int i = 0; i < nodes; ++i)
+      scene.facets.push_back({{as<NodeIndex>(i), as<NodeIndex>((i + 1) % nodes)}, {}});
+    let_bodies_touch(scene, 0.0);
+    for (int n = 0; n < 10; ++n) scene.step(1e-3);
+    ASSERT_LT(scene.position(nodes - 1).y(), 1.0);
+    EXPECT_EQ(scene.contact->body_result().total.workpiece, 0.0);
+    EXPECT_EQ(scene.contact->body_result().total.recovery, 0.0);
+  }
 }
 
 TEST(Bodies, a_corner_that_slides_over_a_ridge_is_stopped_by_the_facet_behind_it) {
