@@ -121,7 +121,7 @@ template<int dim> void join_rows(DiscreteOperators<dim>& op, std::vector<RowBloc
   op.build_transpose();
 }
 
-/// Both.
+/// Fills in the rows of an operator, and its transpose: sums them up and puts them one after another.
 template<int dim, class Sum> void fill_rows(DiscreteOperators<dim>& op, Sum&& sum) {
   join_rows(op, sum_rows(op, sum));
 }

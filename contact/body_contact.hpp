@@ -53,8 +53,8 @@ struct EdgeHit {
 /// the node may yet come round a corner onto the facet.
 ///
 /// In space a boundary may go on at its images. Then nodes and edges meet those too, by as many periods as
-/// the boundary has come beside itself; of two images of a pair, a period apart, each pushes the nodes that
-/// are its own.
+/// the boundary has come beside itself. A pair and its image a period away may both be found; what they push
+/// is tied, and contact/tied_contacts.cpp makes one of them.
 template<int dim> class BodyContact {
 public:
   /// Of all boundaries to come.

@@ -112,8 +112,8 @@ template<int dim> void RigidContact<dim>::correct(const ContactStep<dim>& step) 
     move(poses, step.dt);
     near_.look(surface_, tools_, poses, end_, taken_);
   }
-  share_out(contacts_, twins_, step.mass, surface_);
-  share_out(answered_, answered_twins_, step.mass, surface_);
+  share_out(contacts_, twins_, step.mass);
+  share_out(answered_, answered_twins_, step.mass);
   contacts_.insert(contacts_.end(), answered_.begin(), answered_.end());
   scatter(step);
   motions_.accept(tools_, poses);
@@ -197,6 +197,7 @@ bool RigidContact<dim>::add(Contact<dim> contact, double start, double level, co
            c.node == contact.node && c.shift == contact.shift;
   };
   auto known = std::find_if(contacts_.begin(), earlier, is_same);
+  bool rubs_anew = false;
   if (known == earlier) {
     const auto twin = twin_of(contact, contacts_);
     if (!twin) {
@@ -206,12 +207,10 @@ bool RigidContact<dim>::add(Contact<dim> contact, double start, double level, co
     }
     known = contacts_.begin() + static_cast<std::ptrdiff_t>(*twin);
     missing += gap(*known, step.dt); // the deepest of them says how far all are pushed
-    if (std::none_of(twins_.begin(), twins_.end(), [&](const Twin& t) { return is_same(t.contact); })) {
-      known->limit += contact.limit;
-      twins_.push_back({contact, *twin});
-    }
+    if (std::none_of(twins_.begin(), twins_.end(), [&](const Twin& t) { return is_same(t.contact); }))
+      rubs_anew = join(*known, contact, *twin, twins_, step.mass);
   }
-  if (missing <= 1e-14 * size_) return false;
+  if (missing <= 1e-14 * size_) return rubs_anew;
   known->level += missing;
   return true;
 }

@@ -219,11 +219,17 @@ private:
   bool add(Contact<dim> contact, double start, double level, const Pose<dim>& pose,
            const ContactStep<dim>& step);
   struct Twin;
+  /// The one that stands for a node and all that are tied to it.
+  BoundaryNodeIndex first_of(BoundaryNodeIndex node) const {
+    return exists(tied_[node].first) ? tied_[node].first : node;
+  }
   bool tied_alike(const Contact<dim>& one, const Contact<dim>& other) const;
   std::optional<std::size_t> twin_of(const Contact<dim>& contact,
                                      const std::vector<Contact<dim>>& among) const;
-  static void share_out(std::vector<Contact<dim>>& contacts, std::vector<Twin>& twins, const Field& mass,
-                        const Surface<dim>& surface);
+  double mass_of(const Contact<dim>& contact, const Field& mass) const;
+  bool join(Contact<dim>& bearing, const Contact<dim>& contact, std::size_t of, std::vector<Twin>& twins,
+            const Field& mass) const;
+  void share_out(std::vector<Contact<dim>>& contacts, std::vector<Twin>& twins, const Field& mass) const;
   template<class Area>
   void set_friction(Contact<dim>& contact, const ContactStep<dim>& step, Area&& rubbing_area) const;
   double rubbing_area(BoundaryNodeIndex node, BoundaryValues window) const;

@@ -70,13 +70,22 @@ public:
 
   /// Velocity of the contact point of the nodes along u per unit impulse along u; 0 where they are held, also
   /// where u is off what holds them by less than 1e-3 rad: a face in a plane of symmetry that is flat but for
-  /// rounding would throw nodes along it.
+  /// rounding would throw nodes along it. Nor can what is tied to itself part: where the weights of tied
+  /// nodes cancel, nothing moves.
   double node_mobility(const Vec<dim>& u) const {
     double sum = 0.0, free = 0.0;
-    each([&](double weight, const Reaction<dim>& node, const Vec<dim>&) {
-      sum += weight * weight * u.dot(node.inverse * u);
-      free += weight * weight * node.inverse.trace();
-    });
+    for (std::size_t a = 0; a < Contact<dim>::slots; ++a) {
+      const double weight = contact_.weight[a];
+      if (weight == 0.0) continue;
+      const BoundaryNodeIndex moves = mover(nodes_, contact_.node[a]);
+      double together = 0.0; // of all that an impulse on this one moves
+      for (std::size_t b = 0; b < Contact<dim>::slots; ++b)
+        if (contact_.weight[b] != 0.0 && mover(nodes_, contact_.node[b]) == moves)
+          together += contact_.weight[b];
+      const Mat<dim>& inverse = nodes_[contact_.node[a]].inverse;
+      sum += weight * together * u.dot(inverse * u);
+      free += weight * weight * inverse.trace();
+    }
     return sum > 1e-6 * free ? sum : 0.0;
   }
 

@@ -69,19 +69,37 @@ template<int dim> double RigidContact<dim>::gap(const Contact<dim>& contact, dou
   return contact.normal.dot(x) - contact.level - tool;
 }
 
-/// Whether an impulse of the one moves everything as one of the other does.
+/// Whether an impulse of the one moves everything as one of the other does, whatever the order of their
+/// nodes: edges of two sides may run against each other, and in a pair with its image the sides are swapped.
 template<int dim>
 bool RigidContact<dim>::tied_alike(const Contact<dim>& one, const Contact<dim>& other) const {
-  if (one.tool != other.tool || one.normal.dot(other.normal) < 1.0 - alike) return false;
-  bool partners = false;
+  const double cosine = one.normal.dot(other.normal);
+  if (one.tool != other.tool || std::abs(cosine) < 1.0 - alike) return false;
+  const double side = cosine > 0.0 ? 1.0 : -1.0;
+  const auto weight_on = [&](const Contact<dim>& contact, BoundaryNodeIndex group) {
+    double sum = 0.0;
+    for (std::size_t a = 0; a < Contact<dim>::slots; ++a)
+      if (contact.weight[a] != 0.0 && first_of(contact.node[a]) == group) sum += contact.weight[a];
+    return sum;
+  };
+  const auto all_alike = [&](const Contact<dim>& contact) {
+    for (std::size_t a = 0; a < Contact<dim>::slots; ++a) {
+      const BoundaryNodeIndex group = first_of(contact.node[a]);
+      if (contact.weight[a] != 0.0 &&
+          std::abs(weight_on(one, group) - side * weight_on(other, group)) > alike)
+        return false;
+    }
+    return true;
+  };
+  if (!all_alike(one) || !all_alike(other)) return false;
   for (std::size_t a = 0; a < Contact<dim>::slots; ++a) {
-    if (std::abs(one.weight[a] - other.weight[a]) > alike) return false;
-    if (one.weight[a] == 0.0 || one.node[a] == other.node[a]) continue;
-    const BoundaryNodeIndex first = tied_[one.node[a]].first;
-    if (!exists(first) || tied_[other.node[a]].first != first) return false;
-    partners = true;
+    if (one.weight[a] == 0.0) continue;
+    bool shared = false;
+    for (std::size_t b = 0; b < Contact<dim>::slots; ++b)
+      shared = shared || (other.weight[b] != 0.0 && other.node[b] == one.node[a]);
+    if (!shared) return true; // it has a partner there
   }
-  return partners;
+  return false;
 }
 
 /// The contact of partners that bears what this one would.
@@ -98,22 +116,59 @@ std::optional<std::size_t> RigidContact<dim>::twin_of(const Contact<dim>& contac
   return index_of(found - among.begin());
 }
 
-/// Each of those that were solved for as one gets its share by the mass of its node, and is listed.
+/// kg, by which a contact resists along any direction: 1/Σ w²/m of its nodes, were none of them tied.
+template<int dim> double RigidContact<dim>::mass_of(const Contact<dim>& contact, const Field& mass) const {
+  double inverse = 0.0;
+  for (std::size_t a = 0; a < Contact<dim>::slots; ++a)
+    if (const double w = contact.weight[a]; w != 0.0)
+      inverse += w * w / mass[index_of(surface_.node[contact.node[a]])];
+  return 1.0 / inverse;
+}
+
+/// Lets a contact bear for its twin as well: it presses by its mass, and what friction bears adds up, as far
+/// as one law says it (where one has no bound in shear, both together have none). True when friction changes.
+template<int dim>
+bool RigidContact<dim>::join(Contact<dim>& bearing, const Contact<dim>& contact, std::size_t of,
+                             std::vector<Twin>& twins, const Field& mass) const {
+  double whole = mass_of(bearing, mass) + mass_of(contact, mass);
+  for (const Twin& twin : twins)
+    if (twin.of == of) whole += mass_of(twin.contact, mass);
+  twins.push_back({contact, of});
+  const double coulomb = bearing.coulomb, limit = bearing.limit;
+  if (const double share = mass_of(contact, mass) / whole; contact.coulomb != coulomb) // both may be infinite
+    bearing.coulomb = (1.0 - share) * coulomb + share * contact.coulomb;
+  if (coulomb == 0.0) { // what slips freely, as where it melts, has no bound to add
+    bearing.limit = contact.limit;
+    bearing.smooth = contact.smooth;
+  } else if (contact.coulomb > 0.0) {
+    bearing.limit += contact.limit;
+    bearing.smooth = bearing.smooth && contact.smooth; // a smooth law has a bound
+  }
+  return bearing.coulomb != coulomb || bearing.limit != limit;
+}
+
+/// Each of those that were solved for as one gets its share by its mass, and is listed.
 template<int dim>
 void RigidContact<dim>::share_out(std::vector<Contact<dim>>& contacts, std::vector<Twin>& twins,
-                                  const Field& mass, const Surface<dim>& surface) {
-  if (twins.empty()) return;
-  const auto own = [&](const Contact<dim>& c) { return mass[index_of(surface.node[c.node[0]])]; };
-  std::vector<double> all;
-  for (const Contact<dim>& contact : contacts) all.push_back(own(contact));
-  for (const Twin& twin : twins) all[twin.of] += own(twin.contact);
-  const auto take_share = [&](Contact<dim>& contact, const Contact<dim>& of, double whole) {
-    const double share = own(contact) / whole;
-    contact.pressing = share * of.pressing;
-    contact.sliding = share * of.sliding;
-  };
-  for (Twin& twin : twins) take_share(twin.contact, contacts[twin.of], all[twin.of]);
-  for (std::size_t c = 0; c < all.size(); ++c) take_share(contacts[c], contacts[c], all[c]);
+                                  const Field& mass) const {
+  std::vector<double> whole(twins.empty() ? 0 : contacts.size(), 0.0);
+  for (const Twin& twin : twins) {
+    if (whole[twin.of] == 0.0) whole[twin.of] = mass_of(contacts[twin.of], mass);
+    whole[twin.of] += mass_of(twin.contact, mass);
+  }
+  for (Twin& twin : twins) {
+    const Contact<dim>& of = contacts[twin.of];
+    const double share = mass_of(twin.contact, mass) / whole[twin.of];
+    twin.contact.pressing = share * of.pressing;
+    // on sides that are swapped it acts against the other's
+    twin.contact.sliding = std::copysign(share, of.normal.dot(twin.contact.normal)) * of.sliding;
+  }
+  for (std::size_t c = 0; c < whole.size(); ++c) {
+    if (whole[c] == 0.0) continue;
+    const double share = mass_of(contacts[c], mass) / whole[c];
+    contacts[c].pressing *= share;
+    contacts[c].sliding *= share;
+  }
   for (const Twin& twin : twins) contacts.push_back(twin.contact);
 }
 
@@ -125,8 +180,11 @@ void RigidContact<dim>::share_out(std::vector<Contact<dim>>& contacts, std::vect
   template bool RigidContact<dim>::tied_alike(const Contact<dim>&, const Contact<dim>&) const;               \
   template std::optional<std::size_t> RigidContact<dim>::twin_of(const Contact<dim>&,                        \
                                                                  const std::vector<Contact<dim>>&) const;    \
-  template void RigidContact<dim>::share_out(std::vector<Contact<dim>>&, std::vector<Twin>&, const Field&,   \
-                                             const Surface<dim>&);
+  template double RigidContact<dim>::mass_of(const Contact<dim>&, const Field&) const;                       \
+  template bool RigidContact<dim>::join(Contact<dim>&, const Contact<dim>&, std::size_t, std::vector<Twin>&, \
+                                        const Field&) const;                                                 \
+  template void RigidContact<dim>::share_out(std::vector<Contact<dim>>&, std::vector<Twin>&, const Field&)   \
+      const;
 CNEM_INSTANTIATE(2)
 CNEM_INSTANTIATE(3)
 #undef CNEM_INSTANTIATE

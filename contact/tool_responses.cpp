@@ -4,6 +4,8 @@
 #include "contact/sweeper.hpp"
 #include "core/index.hpp"
 
+#include <algorithm>
+
 namespace cnem::contact {
 
 /// Looks where nodes were at t_n, so that the force is that of a spring in an explicit step. Keeps the
@@ -36,8 +38,9 @@ template<int dim> void RigidContact<dim>::respond(const Poses<dim>& poses, const
       contact.normal = entry.at.normal;
       set_friction(contact, step, [&] { return rubbing_area(node, step.window); });
       if (const auto twin = twin_of(contact, answered_)) {
-        answered_[*twin].limit += contact.limit;
-        answered_twins_.push_back({contact, *twin});
+        join(answered_[*twin], contact, *twin, answered_twins_, step.mass);
+        double& deepest = depth[*twin - first];
+        deepest = std::max(deepest, -entry.at.distance);
         continue;
       }
       take(contact, step);

@@ -60,11 +60,12 @@ void Conduction<dim>::set_operators(const DiscreteOperators<dim>& operators, Fie
 namespace {
 
 template<int dim>
-void flux(const OperatorRows<dim>& rows, const double* hoop, const Field& position, const Field& temperature,
-          const Field& conductivity, double* flux, std::size_t begin, std::size_t end) {
-  CNEM_ON_ACTIVE_ISA(conduction_flux(rows, hoop, position.data(), temperature.data(), conductivity.data(),
-                                     flux, static_cast<std::ptrdiff_t>(begin),
-                                     static_cast<std::ptrdiff_t>(end)));
+void flux(const OperatorRows<dim>& rows, std::size_t unread, const double* hoop, const Field& position,
+          const Field& temperature, const Field& conductivity, double* flux, std::size_t begin,
+          std::size_t end) {
+  CNEM_ON_ACTIVE_ISA(conduction_flux(rows, static_cast<std::ptrdiff_t>(unread), hoop, position.data(),
+                                     temperature.data(), conductivity.data(), flux,
+                                     static_cast<std::ptrdiff_t>(begin), static_cast<std::ptrdiff_t>(end)));
 }
 
 template<int dim>
@@ -133,11 +134,10 @@ void Conduction<dim>::add_simplex_flow(const Field& position, const Field& tempe
 template<int dim> void Conduction<dim>::heat_other_rows(const Field& position, const Field& temperature) {
   const DiscreteOperators<dim>& op = *operators_;
   if (simplices_ == index_of(op.points)) return;
-  auto rows = sparse_rows<dim>(op.row_begin, op.node, op.gradient);
-  for (const double*& weight : rows.weight) weight -= unread_;
+  const auto rows = sparse_rows<dim>(op.row_begin, op.node, op.gradient);
   for_each_block(index_of(op.points) - simplices_, [&](std::size_t begin, std::size_t end) {
-    flux(rows, nullptr, position, temperature, conductivity_, flux_.data() + dim * begin, simplices_ + begin,
-         simplices_ + end);
+    flux(rows, unread_, nullptr, position, temperature, conductivity_, flux_.data() + dim * begin,
+         simplices_ + begin, simplices_ + end);
     for (std::size_t p = simplices_ + begin; p < simplices_ + end; ++p) {
       const double* q = flux_.data() + dim * (p - simplices_);
       for (auto e = index_of(op.row_begin[p]); e < index_of(op.row_begin[p + 1]); ++e) {
@@ -157,7 +157,7 @@ void Conduction<dim>::add_flow(const Field& position, const Field& temperature, 
   const auto columns = sparse_rows<dim>(op.col_begin, op.point, op.weighted_gradient);
   const double* hoop = op.of_revolution() ? op.hoop.data() : nullptr;
   for_each_block(index_of(op.points), [&](std::size_t begin, std::size_t end) {
-    flux(rows, hoop, position, temperature, conductivity_, flux_.data() + dim * begin, begin, end);
+    flux(rows, unread_, hoop, position, temperature, conductivity_, flux_.data() + dim * begin, begin, end);
   });
   for_each_block(index_of(op.nodes), [&](std::size_t begin, std::size_t end) {
     subtract_flow(columns, flux_, flow, begin, end);

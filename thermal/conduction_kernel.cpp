@@ -6,9 +6,9 @@
 namespace cnem::CNEM_ISA {
 
 template<int dim>
-void conduction_flux(const OperatorRows<dim>& rows, const double* hoop, const double* position,
-                     const double* temperature, const double* conductivity, double* flux,
-                     std::ptrdiff_t begin, std::ptrdiff_t end) {
+void conduction_flux(const OperatorRows<dim>& rows, std::ptrdiff_t unread, const double* hoop,
+                     const double* position, const double* temperature, const double* conductivity,
+                     double* flux, std::ptrdiff_t begin, std::ptrdiff_t end) {
   for (std::ptrdiff_t p = begin; p < end; ++p) {
     Small<dim> F[dim], cof[dim];
     double gradient[dim] = {}, stretch = hoop ? 0.0 : 1.0;
@@ -18,8 +18,8 @@ void conduction_flux(const OperatorRows<dim>& rows, const double* hoop, const do
       const auto x = Small<dim>::load(position + beside<dim> * j);
       if (hoop) stretch += hoop[e] * x[0];
       for (int k = 0; k < dim; ++k) {
-        F[k] += x * rows.weight[k][e];
-        gradient[k] += temperature[j] * rows.weight[k][e];
+        F[k] += x * rows.weight[k][e - unread];
+        gradient[k] += temperature[j] * rows.weight[k][e - unread];
       }
     }
     const double det = cofactor(F, cof);
@@ -101,8 +101,8 @@ void conduction_corners(const std::int32_t* first, const std::int32_t* corner, c
 }
 
 #define CNEM_INSTANTIATE(dim)                                                                                \
-  template void conduction_flux<dim>(const OperatorRows<dim>&, const double*, const double*, const double*,  \
-                                     const double*, double*, std::ptrdiff_t, std::ptrdiff_t);                \
+  template void conduction_flux<dim>(const OperatorRows<dim>&, std::ptrdiff_t, const double*, const double*, \
+                                     const double*, const double*, double*, std::ptrdiff_t, std::ptrdiff_t); \
   template void conduction_flow<dim>(const OperatorColumns<dim>&, const double*, double*, std::ptrdiff_t,    \
                                      std::ptrdiff_t);
 CNEM_INSTANTIATE(2)

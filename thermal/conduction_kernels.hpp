@@ -26,10 +26,11 @@ constexpr double conducting(double area, double least) {
 #define CNEM_CONDUCTION_KERNELS(isa)                                                                         \
   namespace isa {                                                                                            \
   /* flux [point − begin][k] = k J F⁻¹F⁻ᵀ ∇_X T; hoop [entry] of revolution, else null */         \
+  /* the first `unread` entries have no weights: those of the next one come first */                         \
   template<int dim>                                                                                          \
-  void conduction_flux(const OperatorRows<dim>& rows, const double* hoop, const double* position,            \
-                       const double* temperature, const double* conductivity, double* flux,                  \
-                       std::ptrdiff_t begin, std::ptrdiff_t end);                                            \
+  void conduction_flux(const OperatorRows<dim>& rows, std::ptrdiff_t unread, const double* hoop,             \
+                       const double* position, const double* temperature, const double* conductivity,        \
+                       double* flux, std::ptrdiff_t begin, std::ptrdiff_t end);                              \
   /* linear triangles: heat [triangle][3] into their nodes, from present positions alone */                  \
   void conduction_triangles(const NodeIndex* node, const double* position, const double* temperature,        \
                             const double* conductivity, double* heat, std::ptrdiff_t begin,                  \

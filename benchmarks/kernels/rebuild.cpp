@@ -13,6 +13,8 @@
 
 #include <benchmark/benchmark.h>
 
+#include <utility>
+
 using namespace cnem;
 
 namespace {
@@ -32,10 +34,22 @@ Cloud<2> benchmark_cloud(std::int64_t nodes) {
   return voronoi::renumber(cloud, voronoi::hilbert_order(cloud.position));
 }
 
-template<class Body> void per_node(benchmark::State& state, const Cloud<2>& cloud, Body&& body) {
-  for (auto _ : state) benchmark::DoNotOptimize(body());
+/// `body` uses up what `prepare` makes, which is not timed.
+template<class Prepare, class Body>
+void per_node(benchmark::State& state, const Cloud<2>& cloud, Prepare&& prepare, Body&& body) {
+  for (auto _ : state) {
+    state.PauseTiming();
+    auto given = prepare();
+    state.ResumeTiming();
+    benchmark::DoNotOptimize(body(std::move(given)));
+  }
   state.counters["per_node"] = benchmark::Counter(
       cloud.nodes(), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+template<class Body> void per_node(benchmark::State& state, const Cloud<2>& cloud, Body&& body) {
+  per_node(
+      state, cloud, [] { return 0; }, [&](int) { return body(); });
 }
 
 void triangulate(benchmark::State& state) {
@@ -89,8 +103,11 @@ void functions_on_facets(benchmark::State& state) {
 void smoothing(benchmark::State& state) {
   const Geometry g(state.range(0));
   const auto means = face_means(g, options(state));
-  per_node(state, g.cloud,
-           [&] { return scni::smoothed_gradients<2>(g.cloud, g.cells, faces_of_cells<2>(g.cells), means); });
+  per_node(
+      state, g.cloud, [&] { return means; },
+      [&](scni::FaceMeans given) {
+        return scni::smoothed_gradients<2>(g.cloud, g.cells, faces_of_cells<2>(g.cells), std::move(given));
+      });
 }
 
 void links(benchmark::State& state) {

@@ -8,6 +8,8 @@
 
 #include <benchmark/benchmark.h>
 
+#include <utility>
+
 using namespace cnem;
 
 namespace {
@@ -25,11 +27,22 @@ struct Geometry {
   }
 };
 
-template<class Body> void per_node(benchmark::State& state, Body&& body) {
-  for (auto _ : state) benchmark::DoNotOptimize(body());
+/// `body` uses up what `prepare` makes, which is not timed.
+template<class Prepare, class Body> void per_node(benchmark::State& state, Prepare&& prepare, Body&& body) {
+  for (auto _ : state) {
+    state.PauseTiming();
+    auto given = prepare();
+    state.ResumeTiming();
+    benchmark::DoNotOptimize(body(std::move(given)));
+  }
   state.counters["per_node"] =
       benchmark::Counter(Geometry::get().cloud.nodes(),
                          benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+template<class Body> void per_node(benchmark::State& state, Body&& body) {
+  per_node(
+      state, [] { return 0; }, [&](int) { return body(); });
 }
 
 void triangulate(benchmark::State& state) {
@@ -41,31 +54,35 @@ void cells(benchmark::State& state) {
   per_node(state, [&] { return voronoi::voronoi_cells(cloud, mesh, voronoi::circumspheres(cloud, mesh)); });
 }
 
-scni::FacetMeans means(const benchmark::State& state) {
-  const auto& [cloud, mesh, spheres, cells] = Geometry::get();
-  return scni::facet_means(cloud, mesh, spheres, cells,
+scni::FacetMeans means(const benchmark::State& state, voronoi::Circumspheres spheres) {
+  const auto& [cloud, mesh, all_spheres, cells] = Geometry::get();
+  return scni::facet_means(cloud, mesh, std::move(spheres), cells,
                            state.range(0) == 0 ? voronoi::Functions::sibson : voronoi::Functions::laplace,
                            state.range(1) == 1 ? scni::FacetRule::one_point
                                                : scni::FacetRule::one_a_triangle);
 }
 
 void functions_on_facets(benchmark::State& state) {
-  per_node(state, [&] { return means(state); });
+  per_node(
+      state, [] { return Geometry::get().spheres; },
+      [&](voronoi::Circumspheres spheres) { return means(state, std::move(spheres)); });
 }
 
 void smoothing_and_links(benchmark::State& state) {
   const auto& cells = Geometry::get().cells;
   const auto& cloud = Geometry::get().cloud;
-  const scni::FacetMeans facets = means(state);
-  per_node(state, [&] {
-    const auto of_cell = group_by_cell<FaceIndex>(
-        cloud.position.size(),
-        facets.facet.size(), [&](std::size_t f) -> const auto& { return facets.facet[f].cell; });
-    const scni::FacesOfCells<3, scni::Interface<3>> faces{cells.volume, facets.facet, of_cell, cells.boundary,
-                                                          cells.neighbours};
-    return std::pair(scni::smoothed_gradients(cloud, faces, facets.means),
-                     scni::stabilisation_links(cloud, faces));
-  });
+  const scni::FacetMeans facets = means(state, Geometry::get().spheres);
+  per_node(
+      state, [&] { return facets.means; },
+      [&](scni::FaceMeans means_on_facets) {
+        const auto of_cell = group_by_cell<FaceIndex>(
+            cloud.position.size(),
+            facets.facet.size(), [&](std::size_t f) -> const auto& { return facets.facet[f].cell; });
+        const scni::FacesOfCells<3, scni::Interface<3>> faces{cells.volume, facets.facet, of_cell,
+                                                              cells.boundary, cells.neighbours};
+        return std::pair(scni::smoothed_gradients(cloud, faces, std::move(means_on_facets)),
+                         scni::stabilisation_links(cloud, faces));
+      });
 }
 
 void median_rows_and_links(benchmark::State& state) {

@@ -85,6 +85,7 @@ struct Masses {
   double applied_work = 0.0; ///< by gravity and springs on the nodes, same measure as contact's
   std::shared_ptr<RigidContact<2>> contact;
   IndexedVector<BoundaryNodeIndex, double> flow_stress, temperature, melting, effusivity;
+  IndexedVector<BoundaryNodeIndex, std::int32_t> material;
 
   int add(const Vec2& at, double m, const Vec2& velocity = {0, 0}) {
     for (std::size_t k = 0; k < 2; ++k) {
@@ -151,6 +152,7 @@ struct Masses {
                       .position = x,
                       .velocity = v,
                       .mass = mass,
+                      .material = material,
                       .flow_stress = flow_stress,
                       .temperature = temperature,
                       .melting = melting,

@@ -29,6 +29,7 @@ struct SpaceMasses {
   std::vector<Spring> springs;
   std::vector<Facet<3>> facets;
   std::vector<NodeConstraint<3>> constraints;
+  IndexedVector<BoundaryNodeIndex, double> flow_stress;
   double time = 0.0, dt_before = 0.0;
   std::shared_ptr<RigidContact<3>> contact;
 
@@ -73,7 +74,13 @@ struct SpaceMasses {
         v[k][i] += dt_mean * force[i][int(k)] / mass[i];
         x[k][i] += dt * v[k][i];
       }
-    contact->correct({time, dt, dt_mean, x, v, mass});
+    contact->correct({.time = time,
+                      .dt = dt,
+                      .dt_mean = dt_mean,
+                      .position = x,
+                      .velocity = v,
+                      .mass = mass,
+                      .flow_stress = flow_stress});
     time += dt;
     dt_before = dt;
   }

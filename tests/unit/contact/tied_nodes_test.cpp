@@ -1,5 +1,6 @@
 // Contact of nodes that are tied to each other, as of a period or an interface: an impulse on one moves all.
 #include "contact/impulse_solver.hpp"
+#include "contact/sweeper.hpp"
 #include "masses.hpp"
 
 #include <gtest/gtest.h>
@@ -87,6 +88,84 @@ TEST(TiedNodes, go_with_the_one_that_is_pushed) {
   }
 }
 
+// Of two materials each presses by its mass, and friction bears what both bear.
+TEST(TiedNodes, of_two_materials_rub_by_the_laws_of_both) {
+  for (const Response& response : {Response(), Response(Penalty{1.0})}) {
+    const auto slide = [&](const Friction& light, const Friction& heavy, bool tied) {
+      Masses scene = two_squares(0.0, 3.0, {0.5, -1.0});
+      Tool<2> floor = tool(box({-5, -2}, {5, 5e-4}), {0.0, 0.2});
+      floor.response = response;
+      floor.friction_by_material = {light, heavy};
+      for (int i = 0; i < 8; ++i) scene.material.push_back(i < 4 ? 0 : 1);
+      start_tied(scene, {floor}, tied);
+      scene.step(tied_step);
+      return scene;
+    };
+    for (const auto& [light, heavy] : {std::pair(0.1, 0.3), std::pair(0.3, 0.1)}) {
+      const Masses scene = slide(Coulomb{light}, Coulomb{heavy}, true);
+      const Vec2 gained = scene.velocity(1) - Vec2(0.5, -1.0);
+      EXPECT_GT(gained.y(), 0.4);
+      EXPECT_GT(scene.velocity(1).x(), 0.01) << "it slips";
+      EXPECT_NEAR(gained.x(), -(1.0 * light + 3.0 * heavy) / 4.0 * gained.y(), 1e-12);
+    }
+    // one slips freely, as where it melts: the other's bound in shear is all there is
+    const auto borne = [&](const Friction& light, const Friction& heavy, bool tied) {
+      const Masses scene = slide(light, heavy, tied);
+      const auto& impulse = scene.contact->nodal_impulse();
+      return impulse[1_boundary].x() + impulse[4_boundary].x();
+    };
+    const Friction none = Frictionless{}, shear = TrescaLimited{5.0, 0.5};
+    EXPECT_LT(borne(none, shear, false), -0.05);
+    EXPECT_NEAR(borne(none, shear, true), borne(none, shear, false), 1e-12);
+    EXPECT_NEAR(borne(shear, none, true), borne(shear, none, false), 1e-12);
+  }
+}
+
+// Whichever is looked at first, a spring answers the deeper one.
+TEST(TiedNodes, go_as_far_as_the_deepest_is_pushed) {
+  const auto pushed = [](double one, double other) {
+    Masses scene = two_squares(0.0, 3.0, {0.0, -1.0});
+    scene.x[1][1] = one, scene.x[1][4] = other;
+    Tool<2> floor = tool(box({-5, -2}, {5, 5e-4}), {0.0, 0.2});
+    floor.response = Penalty{1.0};
+    start_tied(scene, {floor}, true);
+    scene.step(tied_step);
+    return scene.velocity(1).y() + 1.0;
+  };
+  EXPECT_NEAR(pushed(-2e-4, 0.0), pushed(0.0, -2e-4), 1e-12);
+  EXPECT_NEAR(pushed(0.0, -2e-4), 7.0 / 5.0 * pushed(0.0, 0.0), 1e-12);
+}
+
+// Where both ends of an edge, or corners of a facet, move as one, an impulse moves them by both weights.
+TEST(TiedNodes, that_one_contact_joins_answer_to_both_weights) {
+  const double infinite = std::numeric_limits<double>::infinity();
+  Reaction<3> free;
+  free.inverse = Mat<3>::Identity() / 2.0;
+  free.velocity = Vec3(0.3, -0.2, -1.0);
+  ReactionsOfNodes<3> nodes;
+  for (int i = 0; i < 4; ++i) nodes.push_back(free);
+  for (const BoundaryNodeIndex b : {1_boundary, 2_boundary}) nodes[b].moves_with = 1_boundary;
+  nodes[3_boundary].velocity = Vec3(0.1, 0.1, 0.5);
+  Contact<3> contact;
+  contact.normal = Vec3(0, 0, 1);
+  contact.level = 1e-3;
+  contact.node = {0_boundary, 1_boundary, 2_boundary, 3_boundary};
+  contact.weight = {1.0, -0.3, -0.5, -0.2};
+  contact.coulomb = contact.limit = infinite;
+  Reaction<3> none;
+  Sweeper<3> sweeper(contact, nodes, none, tied_step);
+  EXPECT_NEAR(sweeper.node_mobility(contact.normal), (1.0 + 0.8 * 0.8 + 0.2 * 0.2) / 2.0, 1e-15);
+  ASSERT_LT(sweeper.gap(), -1e-4);
+  ASSERT_GT(sweeper.slip().norm(), 1e-2);
+  sweeper.press();
+  sweeper.rub();
+  EXPECT_NEAR(sweeper.gap(), 0.0, 1e-18);
+  EXPECT_LT(sweeper.slip().norm(), 1e-15);
+  // what is tied to itself cannot part: it is not thrown
+  contact.weight = {0.0, 1.0, -0.7 - 0.3 + 1e-16, 0.0};
+  EXPECT_EQ(sweeper.node_mobility(contact.normal), 0.0);
+}
+
 // A chain of contacts in which two nodes move as one is the chain with one node of both masses.
 TEST(TiedNodes, are_solved_for_as_one_node) {
   std::mt19937 random(5);
@@ -118,7 +197,9 @@ TEST(TiedNodes, are_solved_for_as_one_node) {
       contact.limit = std::numeric_limits<double>::infinity();
       contacts.push_back(contact);
     }
+    contacts.front().node = {as<BoundaryNodeIndex>(first), as<BoundaryNodeIndex>(second)};
     std::vector<Contact<2>> of_merged = contacts;
+    of_merged.front().weight = {1.0, 0.0};
     for (Contact<2>& contact : of_merged)
       for (BoundaryNodeIndex& b : contact.node)
         if (b == as<BoundaryNodeIndex>(second)) b = as<BoundaryNodeIndex>(first);
@@ -126,11 +207,11 @@ TEST(TiedNodes, are_solved_for_as_one_node) {
     ImpulseSolver<2>().solve(of_merged, merged, tools, tied_step, 1e-18, 100);
     double impulse = 0.0;
     for (std::size_t c = 0; c < contacts.size(); ++c) {
-      EXPECT_EQ(contacts[c].impulse(), of_merged[c].impulse());
+      EXPECT_LT((contacts[c].impulse() - of_merged[c].impulse()).norm(), 1e-7) << trial << ' ' << c;
       impulse += contacts[c].pressing;
     }
     EXPECT_GT(impulse, 0.1);
     for (const BoundaryNodeIndex b : nodes.indices())
-      EXPECT_EQ(nodes[mover(nodes, b)].change, merged[mover(nodes, b)].change);
+      EXPECT_LT((nodes[mover(nodes, b)].change - merged[mover(nodes, b)].change).norm(), 1e-7);
   }
 }
