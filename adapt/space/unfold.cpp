@@ -24,9 +24,8 @@ public:
 
   /// The number of nodes that have moved.
   int run() {
-    constexpr int rounds = 36, narrow = 12;
+    constexpr int rounds = 36;
     for (int n = 0; n < rounds; ++n) {
-      if (n == narrow) farthest_ = 1.0;
       const std::vector<Pair> pairs = voronoi::crossings(cloud_);
       if (pairs.empty()) break;
       for (const Pair& pair : pairs)
@@ -62,9 +61,10 @@ private:
   }
 
   void move(NodeIndex i, const Vec3& way) {
+    constexpr double farthest = 0.5; // h
     if (held_[i]) return;
     Vec3 from_start = cloud_.position[i] + planes_.keep(i, way) - before_[i];
-    const double most = farthest_ * size_[index_of(i)];
+    const double most = farthest * size_[index_of(i)];
     if (from_start.norm() > most) from_start *= most / from_start.norm();
     cloud_.position[i] = before_[i] + from_start;
   }
@@ -136,7 +136,6 @@ private:
     }
   }
 
-  double farthest_ = 0.5; ///< h, that a node goes: further only where that does not do
   Cloud<3>& cloud_;
   IndexedVector<NodeIndex, Vec3> before_;
   const IndexedVector<NodeIndex, char>& held_;
