@@ -211,6 +211,8 @@ private:
   double gap(const Contact<dim>& contact, double dt) const;
   void respond(const Poses<dim>& poses, const ContactStep<dim>& step);
   void answer(Contact<dim>& contact, double depth, const ContactStep<dim>& step);
+  Contact<dim> on_face(ToolIndex tool, BoundaryNodeIndex node, const SurfacePoint<dim>& at,
+                       const ContactStep<dim>& step) const;
   bool find_on_faces(const Poses<dim>& poses, const ContactStep<dim>& step);
   std::span<const RidgePair> moved_among(std::span<const RidgePair> pairs) requires(dim == 3);
   bool find_on_ridges(const Poses<dim>& poses, const ContactStep<dim>& step);

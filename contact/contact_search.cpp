@@ -19,6 +19,20 @@ template<int dim> bool RigidContact<dim>::stands(ToolIndex tool) const {
   return from_earlier_passes_ > 0 && tool_reactions_[tool].inverse.isZero(0.0);
 }
 
+/// A node on the face of a tool, with its friction.
+template<int dim>
+Contact<dim> RigidContact<dim>::on_face(ToolIndex tool, BoundaryNodeIndex node, const SurfacePoint<dim>& at,
+                                        const ContactStep<dim>& step) const {
+  Contact<dim> contact;
+  contact.tool = tool;
+  contact.feature = at.feature;
+  contact.node[0] = node;
+  contact.weight[0] = 1.0;
+  contact.normal = at.normal;
+  set_friction(contact, step, [&] { return rubbing_area(node, step.window); });
+  return contact;
+}
+
 template<int dim>
 bool RigidContact<dim>::find_on_faces(const Poses<dim>& poses, const ContactStep<dim>& step) {
   bool any = false;
@@ -42,13 +56,7 @@ bool RigidContact<dim>::find_on_faces(const Poses<dim>& poses, const ContactStep
     tools_[t].shape->entries(from_, to_, entries_);
     for (const Entry<dim>& entry : entries_) {
       const BoundaryNodeIndex b = inside_[index_of(entry.index)];
-      Contact<dim> contact;
-      contact.tool = t;
-      contact.feature = entry.at.feature;
-      contact.node[0] = b;
-      contact.weight[0] = 1.0;
-      contact.normal = entry.at.normal;
-      set_friction(contact, step, [&] { return rubbing_area(b, step.window); });
+      const Contact<dim> contact = on_face(t, b, entry.at, step);
       const double level = entry.at.normal.dot(end_[b]) - entry.at.distance;
       any |= add(contact, entry.start, level, poses[t], step);
     }
@@ -181,12 +189,16 @@ bool RigidContact<dim>::find_on_edges(const Pose<dim>& rest,
 template const Friction& RigidContact<2>::friction_of(const Contact<2>&, const ContactStep<2>&) const;
 template bool RigidContact<2>::stands(ToolIndex) const;
 template double RigidContact<2>::rubbing_area(BoundaryNodeIndex, BoundaryValues) const;
+template Contact<2> RigidContact<2>::on_face(ToolIndex, BoundaryNodeIndex, const SurfacePoint<2>&,
+                                             const ContactStep<2>&) const;
 template bool RigidContact<2>::find_on_faces(const Poses<2>&, const ContactStep<2>&);
 template bool RigidContact<2>::find_on_ridges(const Poses<2>&, const ContactStep<2>&);
 template bool RigidContact<2>::find_on_bodies(const Poses<2>&, const ContactStep<2>&);
 template const Friction& RigidContact<3>::friction_of(const Contact<3>&, const ContactStep<3>&) const;
 template bool RigidContact<3>::stands(ToolIndex) const;
 template double RigidContact<3>::rubbing_area(BoundaryNodeIndex, BoundaryValues) const;
+template Contact<3> RigidContact<3>::on_face(ToolIndex, BoundaryNodeIndex, const SurfacePoint<3>&,
+                                             const ContactStep<3>&) const;
 template bool RigidContact<3>::find_on_faces(const Poses<3>&, const ContactStep<3>&);
 template bool RigidContact<3>::find_on_ridges(const Poses<3>&, const ContactStep<3>&);
 template bool RigidContact<3>::find_on_edges(const Pose<3>&, const ContactStep<3>&);

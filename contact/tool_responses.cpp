@@ -1,6 +1,5 @@
 // Tools that answer nodes inside them one by one, as contact/responses/list.hpp has it.
 #include "contact/arc_offset.hpp"
-#include "contact/contact_friction.hpp"
 #include "contact/sweeper.hpp"
 #include "core/index.hpp"
 
@@ -29,14 +28,7 @@ template<int dim> void RigidContact<dim>::respond(const Poses<dim>& poses, const
     const std::size_t first = answered_.size();
     std::vector<double> depth;
     for (const Entry<dim>& entry : entries_) {
-      const BoundaryNodeIndex node = inside_[index_of(entry.index)];
-      Contact<dim> contact;
-      contact.tool = t;
-      contact.feature = entry.at.feature;
-      contact.node[0] = node;
-      contact.weight[0] = 1.0;
-      contact.normal = entry.at.normal;
-      set_friction(contact, step, [&] { return rubbing_area(node, step.window); });
+      const Contact<dim> contact = on_face(t, inside_[index_of(entry.index)], entry.at, step);
       if (const auto twin = twin_of(contact, answered_)) {
         join(answered_[*twin], contact, *twin, answered_twins_, step.mass);
         double& deepest = depth[*twin - first];

@@ -49,7 +49,7 @@ void Conduction<dim>::set_operators(const DiscreteOperators<dim>& operators, Fie
   limited_ = false;
   corner_.clear();
   simplices_ = operators.of_revolution() || operators.nodal ? 0 : leading_simplices(operators);
-  if (dim == 2 && simplices_ < index_of(operators.points)) simplices_ = 0;
+  if (dim == 2 && simplices_ < index_of(operators.points)) simplices_ = 0; // in the plane all rows or none
   unread_ = operators.node.size() - operators.gradient[0].size();
   flux_.assign(dim * (index_of(operators.points) - simplices_), 0.0);
   const bool by_entries = dim == 3 ? !operators.nodal : simplices_ > 0;

@@ -4,6 +4,7 @@
 #include "contact/curve_shape.hpp"
 #include "tests/curves.hpp"
 #include "tests/index_literals.hpp"
+#include "tests/unit/contact/mass_sums.hpp"
 
 #include <cmath>
 #include <functional>
@@ -163,16 +164,8 @@ struct Masses {
     dt_before = dt;
   }
 
-  Vec2 momentum() const {
-    Vec2 sum = Vec2::Zero();
-    for (int i = 0; i < int(mass.size()); ++i) sum += mass[std::size_t(i)] * velocity(i);
-    return sum;
-  }
-  double kinetic() const {
-    double sum = 0.0;
-    for (int i = 0; i < int(mass.size()); ++i) sum += 0.5 * mass[std::size_t(i)] * velocity(i).squaredNorm();
-    return sum;
-  }
+  Vec2 momentum() const { return momentum_of<2>(mass, v); }
+  double kinetic() const { return kinetic_of<2>(mass, v); }
   double total_mass() const {
     double sum = 0.0;
     for (const double m : mass) sum += m;

@@ -2,6 +2,7 @@
 // The integrator of masses and springs in space.
 #include "contact/contact.hpp"
 #include "space_shapes.hpp"
+#include "tests/unit/contact/mass_sums.hpp"
 
 #include <memory>
 #include <utility>
@@ -84,16 +85,8 @@ struct SpaceMasses {
     time += dt;
     dt_before = dt;
   }
-  Vec3 momentum() const {
-    Vec3 sum = Vec3::Zero();
-    for (int i = 0; i < nodes(); ++i) sum += mass[std::size_t(i)] * velocity(i);
-    return sum;
-  }
-  double kinetic() const {
-    double sum = 0.0;
-    for (int i = 0; i < nodes(); ++i) sum += 0.5 * mass[std::size_t(i)] * velocity(i).squaredNorm();
-    return sum;
-  }
+  Vec3 momentum() const { return momentum_of<3>(mass, v); }
+  double kinetic() const { return kinetic_of<3>(mass, v); }
 };
 
 /// A block of n nodes along each axis from `low`, spacing h, with springs along edges and both diagonals of

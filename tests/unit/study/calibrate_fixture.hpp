@@ -112,6 +112,21 @@ protected:
   Json result(const std::string& output = "results") const {
     return Json::parse(results::read_file(folder / output / "calibration.json"));
   }
+  /// What a press would measure of the block of 350 MPa + 400 MPa ε̄pⁿ, from a run on a cloud of a spacing.
+  void press_block(const std::string& spacing) const {
+    write("truth.toml", std::string(block));
+    ASSERT_EQ(program({"run", (folder / "truth.toml").string(), "--output", (folder / "truth").string(),
+                       "--set", "let.spacing=" + spacing, "--set", "materials.steel.plastic.A=350 MPa",
+                       "--set", "materials.steel.plastic.B=400 MPa"}),
+              0);
+    const results::HistoryTable history = results::read_history(folder / "truth/history.csv");
+    std::string press = "stroke[mm],force[kN]\n";
+    for (std::size_t k = 0; k < history.rows(); k += 2) {
+      const auto at = [&](const char* name) { return history.column[std::size_t(history.find(name))][k]; };
+      press += fmt::format("{},{}\n", 1e3 * at("punch.stroke"), -20e-6 * at("punch.force_y"));
+    }
+    write("press.csv", press);
+  }
   /// Runs the program to the end, or until it shall be killed.
   int program(const std::vector<std::string>& words, const std::function<bool()>& kill_when = {}) const {
     const pid_t child = fork();

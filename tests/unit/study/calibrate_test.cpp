@@ -66,18 +66,7 @@ TEST_F(Calibrate, a_single_constant_is_found_too) {
 }
 
 TEST_F(Calibrate, finds_the_flow_stress_from_a_run_on_another_cloud_also_after_a_kill) {
-  write("truth.toml", std::string(block));
-  ASSERT_EQ(program({"run", (folder / "truth.toml").string(), "--output", (folder / "truth").string(),
-                     "--set", "let.spacing=0.14 mm", "--set", "materials.steel.plastic.A=350 MPa", "--set",
-                     "materials.steel.plastic.B=400 MPa"}),
-            0);
-  const results::HistoryTable history = results::read_history(folder / "truth/history.csv");
-  std::string press = "stroke[mm],force[kN]\n";
-  for (std::size_t k = 0; k < history.rows(); k += 2) {
-    const auto at = [&](const char* name) { return history.column[std::size_t(history.find(name))][k]; };
-    press += fmt::format("{},{}\n", 1e3 * at("punch.stroke"), -20e-6 * at("punch.force_y"));
-  }
-  write("press.csv", press);
+  press_block("0.14 mm");
   const std::string text = "evaluations = 26\nprocesses = 2\n" +
                            constant("A", "\"250 MPa\"", "\"100 MPa\"", "\"800 MPa\"", "log") +
                            constant("B", "\"700 MPa\"", "\"100 MPa\"", "\"1.5 GPa\"", "log") +
@@ -110,18 +99,7 @@ TEST_F(Calibrate, finds_the_flow_stress_from_a_run_on_another_cloud_also_after_a
 
 /// BOBYQA of so few evaluations ends far from the least misfit, and intervals are those of the least.
 TEST_F(Calibrate, few_steps_of_least_squares_end_a_search_by_runs) {
-  write("truth.toml", std::string(block));
-  ASSERT_EQ(
-      program({"run", (folder / "truth.toml").string(), "--output", (folder / "truth").string(), "--set",
-               "materials.steel.plastic.A=350 MPa", "--set", "materials.steel.plastic.B=400 MPa"}),
-      0);
-  const results::HistoryTable history = results::read_history(folder / "truth/history.csv");
-  std::string press = "stroke[mm],force[kN]\n";
-  for (std::size_t k = 0; k < history.rows(); k += 2) {
-    const auto at = [&](const char* name) { return history.column[std::size_t(history.find(name))][k]; };
-    press += fmt::format("{},{}\n", 1e3 * at("punch.stroke"), -20e-6 * at("punch.force_y"));
-  }
-  write("press.csv", press);
+  press_block("0.2 mm");
   ASSERT_EQ(run("evaluations = 8\nprocesses = 2\n" +
                 constant("A", "\"250 MPa\"", "\"100 MPa\"", "\"800 MPa\"", "log") +
                 constant("B", "\"700 MPa\"", "\"100 MPa\"", "\"1.5 GPa\"", "log") + "[targets.press]\n"),
@@ -268,7 +246,6 @@ TEST_F(Calibrate, what_is_left_out_and_fails_is_told_once_and_counts_in_no_misfi
   EXPECT_EQ(warnings(""), 1) << "one of its two curves is compared before the other fails";
 }
 
-/// The start melts at the temperature of the curve; a run that is left out would go well with its constants.
 Calibration two_lines() {
   Calibration calibration;
   calibration.title = "two\nlines";
