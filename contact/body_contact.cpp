@@ -195,14 +195,21 @@ template<int dim>
 void BodyContact<dim>::look(const Surface<dim>& surface, PlacesOnBoundary<dim> start,
                             PlacesOnBoundary<dim> end) {
   if (start.empty()) return;
-  if (!listed_.empty()) {
+  const auto covered = [&](const IndexedVector<BoundaryNodeIndex, Vec<dim>>& from, double skin) {
     double moved = 0.0;
-    for (const BoundaryNodeIndex b : end.indices())
-      moved = std::max(moved, (end[b] - listed_[b]).squaredNorm());
-    if (2.0 * std::sqrt(moved) <= skin_) return;
+    for (const BoundaryNodeIndex b : end.indices()) moved = std::max(moved, (end[b] - from[b]).squaredNorm());
+    return 2.0 * std::sqrt(moved) <= skin;
+  };
+  const bool listed = !listed_.empty() && covered(listed_, skin_);
+  if (!listed) {
+    listed_.assign(start.begin(), start.end());
+    list(surface);
   }
-  listed_.assign(start.begin(), start.end());
-  list(surface);
+  if constexpr (dim == 3)
+    if (!listed || !covered(narrowed_, narrow_)) {
+      narrowed_.assign(start.begin(), start.end());
+      narrow(surface);
+    }
 }
 
 template<>
@@ -246,15 +253,21 @@ void BodyContact<2>::find(const Surface<2>& surface, PlacesOnBoundary<2> start, 
 }
 
 template<int dim> void BodyContact<dim>::archive(Archive& archive, const Surface<dim>& surface) {
-  std::vector<double> flat;
-  for (const Vec<dim>& x : listed_) flat.insert(flat.end(), x.data(), x.data() + dim);
-  archive.list("solver/body_contact/listed", "m", flat);
-  if (!archive.loading()) return;
-  listed_.clear();
-  for (std::size_t i = 0; i + dim <= flat.size(); i += dim)
-    listed_.push_back(Eigen::Map<const Vec<dim>>(flat.data() + i));
-  if (listed_.size() != surface.node.size()) listed_.clear();
-  if (!listed_.empty()) list(surface);
+  const auto carry = [&](const char* name, IndexedVector<BoundaryNodeIndex, Vec<dim>>& places) {
+    std::vector<double> flat;
+    for (const Vec<dim>& x : places) flat.insert(flat.end(), x.data(), x.data() + dim);
+    archive.list(name, "m", flat);
+    if (!archive.loading()) return;
+    places.clear();
+    for (std::size_t i = 0; i + dim <= flat.size(); i += dim)
+      places.push_back(Eigen::Map<const Vec<dim>>(flat.data() + i));
+    if (places.size() != surface.node.size()) places.clear();
+  };
+  carry("solver/body_contact/listed", listed_);
+  if constexpr (dim == 3) carry("solver/body_contact/narrowed", narrowed_);
+  if (!archive.loading() || listed_.empty()) return;
+  list(surface);
+  if constexpr (dim == 3) narrow(surface);
 }
 
 template class BodyContact<2>;

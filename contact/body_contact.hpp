@@ -88,7 +88,7 @@ public:
   double size() const { return size_; } ///< m, extent of the boundary as listed: the scale of rounding
   int listings() const { return listings_; }
 
-  /// Carries out or in where nodes stood when pairs were listed, on the same boundary.
+  /// Carries out or in where nodes stood when pairs were listed and narrowed, on the same boundary.
   void archive(Archive& archive, const Surface<dim>& surface);
 
 private:
@@ -100,6 +100,9 @@ private:
   void list(const Surface<dim>& surface);
   void list_edges(const Surface<dim>& surface, const BoxTree& facets,
                   std::span<const Vec3> shifts); // in space
+  /// Of the pairs of edges those that are nearer than a fraction of the skin, until nodes have moved by half
+  /// of that: of a flat surface edges are listed that never meet.
+  void narrow(const Surface<dim>& surface); // in space
   bool same(BoundaryNodeIndex one, BoundaryNodeIndex other, const Vec<dim>& shift) const;
   bool related(const Surface<dim>& surface, BoundaryNodeIndex node, FacetIndex facet,
                const Vec<dim>& shift) const;
@@ -109,10 +112,12 @@ private:
   IndexedVector<FacetIndex, char> side_;                 ///< of a period: no surface; empty: nothing repeats
   IndexedVector<BoundaryNodeIndex, std::int32_t> group_; ///< −1: free
   Bonds bonds_;
-  IndexedVector<BoundaryNodeIndex, Vec<dim>> listed_; ///< m; empty: no list yet
-  std::vector<Pair> pairs_;                           ///< by node, then image, then facet
-  std::vector<EdgePair> edge_pairs_;                  ///< 3D
-  double skin_ = 0.0;                                 ///< m
+  IndexedVector<BoundaryNodeIndex, Vec<dim>> listed_;   ///< m; empty: no list yet
+  std::vector<Pair> pairs_;                             ///< by node, then image, then facet
+  std::vector<EdgePair> edge_pairs_;                    ///< 3D
+  IndexedVector<BoundaryNodeIndex, Vec<dim>> narrowed_; ///< 3D: m, at which near_edges_ were chosen
+  std::vector<EdgePair> near_edges_;                    ///< 3D: of edge_pairs_, in their order
+  double skin_ = 0.0, narrow_ = 0.0;                    ///< m
   double size_ = 0.0;
   int listings_ = 0;
 };
@@ -125,6 +130,7 @@ template<> void BodyContact<3>::list(const Surface<3>& surface);
 template<>
 void BodyContact<3>::list_edges(const Surface<3>& surface, const BoxTree& facets,
                                 std::span<const Vec3> shifts);
+template<> void BodyContact<3>::narrow(const Surface<3>& surface);
 template<>
 void BodyContact<3>::find(const Surface<3>& surface, PlacesOnBoundary<3> start, PlacesOnBoundary<3> end,
                           std::vector<FacetHit<3>>& hits) const;

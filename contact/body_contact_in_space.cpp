@@ -17,6 +17,7 @@ namespace cnem::contact {
 namespace {
 
 constexpr double skin_of_facets = 0.5;  ///< skin over the mean length of edges
+constexpr double narrow_skin = 0.125;   ///< of the skin, between edges that are looked at in each step
 constexpr double clearance = 1e-6;      ///< of a facet's size: what stays between bodies that touch
 constexpr double rounding = 1e-9;       ///< of a facet's size: a gap of nothing
 constexpr double overhang = 1e-6;       ///< of a facet's size, by which crossings beside it count
@@ -302,6 +303,16 @@ void BodyContact<3>::list_edges(const Surface<3>& surface, const BoxTree& facets
   }
 }
 
+template<> void BodyContact<3>::narrow(const Surface<3>& surface) {
+  narrow_ = narrow_skin * skin_;
+  near_edges_.clear();
+  for (const EdgePair& pair : edge_pairs_) {
+    const SurfaceEdge &one = surface.edges[pair.one], &other = surface.edges[pair.other];
+    if (pair.overlaps || distance_of_edges(one, other, pair.shift, narrowed_) <= narrow_)
+      near_edges_.push_back(pair);
+  }
+}
+
 template<>
 void BodyContact<3>::find(const Surface<3>& surface, PlacesOnBoundary<3> start, PlacesOnBoundary<3> end,
                           std::vector<FacetHit<3>>& hits) const {
@@ -345,7 +356,7 @@ void BodyContact<3>::find(const Surface<3>& surface, PlacesOnBoundary<3> start, 
 template<>
 void BodyContact<3>::find_edges(const Surface<3>& surface, PlacesOnBoundary<3> start, PlacesOnBoundary<3> end,
                                 std::vector<EdgeHit>& hits) const {
-  for (const EdgePair& pair : edge_pairs_) {
+  for (const EdgePair& pair : near_edges_) {
     const auto now = crossing(surface, side_, pair, end);
     if (!now) continue;
     const double kept = clearance * now->length, gap = now->gap - kept;

@@ -80,14 +80,18 @@ void ImpulseSolver<dim>::solve(std::vector<Contact<dim>>& contacts, ReactionsOfN
       continue;
     }
     double depth = 0.0;
-    for (const std::int32_t c : group) depth = std::max(depth, -sweeper(c).gap());
+    mobility_.clear();
+    for (const std::int32_t c : group) {
+      depth = std::max(depth, -sweeper(c).gap());
+      mobility_.push_back(sweeper(c).along(contacts[index_of(c)].normal));
+    }
     const double least = std::max(tolerance, relative * depth);
     int next = sweeps_before;
     for (int sweep = 1; sweep <= sweeps; ++sweep) {
       double moved = 0.0;
-      for (const std::int32_t c : group) {
-        Sweeper<dim> one = sweeper(c);
-        moved = std::max(moved, one.press());
+      for (std::size_t i = 0; i < group.size(); ++i) {
+        Sweeper<dim> one = sweeper(group[i]);
+        moved = std::max(moved, one.press(mobility_[i]));
         moved = std::max(moved, one.rub());
       }
       for (const ToolIndex t : tools.indices())

@@ -30,6 +30,7 @@ public:
 private:
   ContactGroups<dim> groups_;
   ContactSystem system_;
+  std::vector<double> mobility_; ///< 1/kg, of the contacts of a group along their normals
 };
 
 extern template class ImpulseSolver<2>;

@@ -120,8 +120,14 @@ void NearTools<3>::list_at_ridges(const Surface<3>& surface, const ToolShape<3>&
     const Vec3 a = position[nodes[0]] - shift;
     if (far(a) > 2.0 * (position[nodes[1]] - position[nodes[0]]).norm() + skin_) continue;
     overlapping(nodes, 2);
+    // seen from the tool an end moves by less than the skin, so that the edge grows by less than two
+    const Vec3 along = position[nodes[1]] - shift - a;
+    const auto reached = [&](const Ridge<3>& ridge) {
+      return ridge.distance(a + 0.5 * along) <= ridge.reach(along.norm() + 2.0 * skin_) + skin_;
+    };
     for (const std::int32_t r : met)
-      if (!ridges[index_of(r)].is_point()) near.at_ridges.push_back({.ridge = r, .edge = e});
+      if (const Ridge<3>& ridge = ridges[index_of(r)]; !ridge.is_point() && reached(ridge))
+        near.at_ridges.push_back({.ridge = r, .edge = e});
   }
   for (const FacetIndex f : surface.facets.indices()) {
     const auto& nodes = surface.facets[f];

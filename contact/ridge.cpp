@@ -44,6 +44,13 @@ Ridge<3>::Place Ridge<3>::facing(const Vec3& x) const {
   return {origin + section.centre.x() * radial + section.centre.y() * v, radial, v.cross(radial)};
 }
 
+double Ridge<3>::distance(const Vec3& x) const {
+  const Vec3 from = x - origin;
+  const double axial = from.dot(v);
+  const double radial = path == Path::circular ? (from - axial * v).norm() : from.dot(u);
+  return (Vec2(radial, axial) - section.centre).norm();
+}
+
 double Ridge<3>::turn_towards(const Vec3& x) const {
   const Vec3 from = x - origin;
   const double turn = std::atan2(from.dot(v.cross(u)), from.dot(u));

@@ -74,6 +74,11 @@ template<> struct Ridge<3> {
   Place facing(const Vec3& x) const;
   /// The same as an angle, rad in [0, 2π); may lie beyond its end.
   double turn_towards(const Vec3& x) const;
+  /// m, of a point from the line or circle of the path, as if it went on without end; not of a corner.
+  double distance(const Vec3& x) const;
+  /// How far the middle of an edge of length l (m) may be from the path for the edge to be met: crossings lie
+  /// up to a tenth of l beside it, above the ridge or up to half of l deep.
+  double reach(double l) const { return std::max(section.radius, 0.5 * l) + 0.601 * l; }
   /// Is the unit vector n, which is normal to the path there, among the outward normals?
   bool faces(const Vec3& n, const Place& place) const { return section.faces({n.dot(place.u), n.dot(v)}); }
   /// The same of a point, or of any place of a circular one.

@@ -57,14 +57,8 @@ public:
     return {};
   }
 
-  /// Whether a ridge is so far that it does not reach the edge: a crossing that counts is nearer to the
-  /// middle of the edge than its overhang, half of its length deep and the radius together.
   bool beyond_reach(const Ridge<3>& ridge) const {
-    if (ridge.path == Ridge<3>::Path::straight) return false;
-    const Vec3 from = a_ + 0.5 * along_ - ridge.origin;
-    const double axial = from.dot(ridge.v), radial = (from - axial * ridge.v).norm();
-    const double reach = ridge.section.radius + 1.2 * length_;
-    return (Vec2(radial, axial) - ridge.section.centre).squaredNorm() > reach * reach;
+    return ridge.distance(a_ + 0.5 * along_) > ridge.reach(length_);
   }
 
 private:

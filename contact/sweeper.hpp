@@ -30,9 +30,9 @@ public:
     return slip - slip.dot(contact_.normal) * contact_.normal;
   }
 
-  /// Both return how far they moved the contact point, m.
-  double press() {
-    const double mobility = along(contact_.normal);
+  /// All return how far they moved the contact point, m. mobility: along the normal, the same in all sweeps.
+  double press() { return press(along(contact_.normal)); }
+  double press(double mobility) {
     if (mobility <= 0.0) return 0.0;
     return press_by(-gap() / (dt_ * mobility)) * dt_ * mobility;
   }
