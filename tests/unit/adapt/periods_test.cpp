@@ -12,11 +12,7 @@
 namespace cnem::adapt {
 namespace {
 
-PieceIndex piece_of(const Cloud<3>& cloud, const std::string& prefix) {
-  for (const PieceIndex p : cloud.piece_names.indices())
-    if (cloud.piece_names[p].starts_with(prefix)) return p;
-  throw std::logic_error("no piece " + prefix);
-}
+using testing::piece_of;
 
 /// A cube of unit density with these axes periodic.
 struct Periodic {
