@@ -7,6 +7,8 @@
 
 #include <Eigen/Geometry>
 #include <functional>
+#include <stdexcept>
+#include <string>
 
 namespace cnem::testing {
 
@@ -19,6 +21,13 @@ inline constexpr std::array space_shapes = {SpaceShape::cube,      SpaceShape::l
 inline const char* name_of(SpaceShape shape) {
   return std::array{"cube", "l", "one_hole", "two_holes", "slit", "notch", "thin_wall", "torus", "shell"}
       [static_cast<std::size_t>(shape)];
+}
+
+/// The first piece whose name begins so.
+inline PieceIndex piece_of(const Cloud<3>& cloud, const std::string& prefix) {
+  for (const PieceIndex p : cloud.piece_names.indices())
+    if (cloud.piece_names[p].starts_with(prefix)) return p;
+  throw std::logic_error("no piece " + prefix);
 }
 
 /// How a body of size 1 is filled and deformed.

@@ -5,6 +5,7 @@
 #include "core/geometry/facets.hpp"
 #include "core/index.hpp"
 #include "voronoi/space/crossings.hpp"
+#include "voronoi/space/winding.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -15,15 +16,30 @@ namespace {
 
 using Pair = std::array<CloudFacetIndex, 2>;
 
+/// Nodes and those beside them on the surface.
+IndexedVector<NodeIndex, char> with_neighbours(const Cloud<3>& cloud,
+                                               const IndexedVector<NodeIndex, char>& nodes) {
+  IndexedVector<NodeIndex, char> wider = nodes;
+  for (const auto& facet : cloud.facets)
+    if (nodes[facet.node[0]] || nodes[facet.node[1]] || nodes[facet.node[2]])
+      for (const NodeIndex i : facet.node) wider[i] = 1;
+  return wider;
+}
+
 class Unfolding {
 public:
   Unfolding(Cloud<3>& cloud, const IndexedVector<NodeIndex, char>& held, const Field& size,
-            const PeriodImages& images)
-      : cloud_(cloud), before_(cloud.position), held_(held), size_(size), planes_(cloud),
-        groups_(images.groups()), active_(cloud.position.size(), 0) {}
+            const PeriodImages& images, const std::vector<PieceIndex>& seams)
+      : cloud_(cloud), before_(cloud.position), held_(held), size_(size), planes_(cloud), seams_(seams),
+        groups_(images.groups()), active_(cloud.position.size(), 0), within_seam_(cloud.position.size(), 1) {
+    for (const CloudFacetIndex f : cloud.facets.indices())
+      if (!on_seam(f))
+        for (const NodeIndex i : cloud.facets[f].node) within_seam_[i] = 0;
+  }
 
   /// The number of nodes that have moved.
   int run() {
+    clear_seams();
     constexpr int rounds = 36;
     for (int n = 0; n < rounds; ++n) {
       const std::vector<Pair> pairs = voronoi::crossings(cloud_);
@@ -32,7 +48,7 @@ public:
         for (const CloudFacetIndex f : pair)
           for (const NodeIndex i : cloud_.facets[f].node) active_[i] = 1;
       constexpr int widen_every = 3;
-      if (n % widen_every == widen_every - 1) widen();
+      if (n % widen_every == widen_every - 1) active_ = with_neighbours(cloud_, active_);
       push_apart(pairs);
       align();
       smooth();
@@ -50,14 +66,6 @@ private:
 
   Vec3 normal(CloudFacetIndex f) const {
     return area_normal<3>(corners_of<3>(cloud_.facets[f], cloud_.position));
-  }
-
-  void widen() {
-    IndexedVector<NodeIndex, char> wider = active_;
-    for (const auto& facet : cloud_.facets)
-      if (active_[facet.node[0]] || active_[facet.node[1]] || active_[facet.node[2]])
-        for (const NodeIndex i : facet.node) wider[i] = 1;
-    active_ = std::move(wider);
   }
 
   void move(NodeIndex i, const Vec3& way) {
@@ -89,27 +97,124 @@ private:
     return false;
   }
 
-  /// How deep the corners of f are below the plane of g, m.
-  double depth(CloudFacetIndex f, CloudFacetIndex g) const {
-    const Vec3 n = normal(g).normalized();
-    double deepest = 0.0;
+  /// How far the corners of f are above the plane of g (sign 1) or below it (-1), m.
+  double reach(CloudFacetIndex f, CloudFacetIndex g, double sign) const {
+    const Vec3 n = sign * normal(g).normalized();
+    double farthest = 0.0;
     for (const NodeIndex i : cloud_.facets[f].node)
-      deepest = std::max(deepest, -n.dot(cloud_.position[i] - cloud_.position[cloud_.facets[g].node[0]]));
-    return deepest;
+      farthest = std::max(farthest, n.dot(cloud_.position[i] - cloud_.position[cloud_.facets[g].node[0]]));
+    return farthest;
   }
 
-  /// Facets that look at each other go apart along the normal of the one that is entered less deep.
+  /// In the middle of what f and g have in common.
+  Vec3 middle(const Pair& pair) const {
+    Vec3 sum = Vec3::Zero();
+    double count = 0.0;
+    const auto pierce = [&](CloudFacetIndex f, CloudFacetIndex g) {
+      const auto x = corners_of<3>(cloud_.facets[g], cloud_.position);
+      const Vec3 n = area_normal<3>(x);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3 &a = cloud_.position[cloud_.facets[f].node[k]],
+                   &b = cloud_.position[cloud_.facets[f].node[(k + 1) % 3]];
+        const double from = n.dot(a - x[0]), to = n.dot(b - x[0]);
+        if (from * to > 0.0 || from == to) continue;
+        const Vec3 at = a + from / (from - to) * (b - a);
+        bool inside = true;
+        for (std::size_t m = 0; m < 3; ++m)
+          inside = inside && (x[(m + 1) % 3] - x[m]).cross(at - x[m]).dot(n) >= -1e-9 * n.squaredNorm();
+        if (!inside) continue;
+        sum += at;
+        count += 1.0;
+      }
+    };
+    pierce(pair[0], pair[1]);
+    pierce(pair[1], pair[0]);
+    return count > 0.0 ? Vec3(sum / count) : Vec3(cloud_.position[cloud_.facets[pair[0]].node[0]]);
+  }
+
+  /// Whether it is matter that has been between the facets: above both of them the surface is inside out.
+  /// Else it has been a gap, and below both of them matter is twice.
+  bool were_back_to_back(const Pair& pair, const voronoi::Winding& winding) const {
+    constexpr double little = 1e-6; // h
+    const Vec3 up = normal(pair[0]).normalized() + normal(pair[1]).normalized();
+    const double h = size_[index_of(cloud_.facets[pair[0]].node[0])];
+    return winding(middle(pair) + little * h * up.normalized()) < 0;
+  }
+
+  bool on_seam(CloudFacetIndex f) const {
+    return std::find(seams_.begin(), seams_.end(), cloud_.facets[f].piece) != seams_.end();
+  }
+
+  /// Where a seam and a face have run into each other the seam goes: it is a cut through matter that goes on
+  /// behind it, and its image takes what it gives.
+  void clear_seams() {
+    if (groups_.empty()) return;
+    constexpr int rounds = 12;
+    for (int n = 0; n < rounds; ++n) {
+      std::vector<Pair> pairs = voronoi::crossings(cloud_);
+      std::erase_if(pairs, [&](const Pair& pair) { return on_seam(pair[0]) == on_seam(pair[1]); });
+      if (pairs.empty()) return;
+      IndexedVector<NodeIndex, Vec3> way(cloud_.position.size(), Vec3::Zero());
+      const voronoi::Winding winding(cloud_);
+      for (const Pair& pair : pairs) leave_face(pair, were_back_to_back(pair, winding), way);
+      if (!move_alike(way)) break;
+    }
+    cloud_.position = before_; // it is the border of the seam that is folded
+  }
+
+  /// Ways of the nodes within a seam that bring its facet off the other one: those that are nearer to that
+  /// than some of h, or beyond it; where none is, all of the facet by what they have in common.
+  void leave_face(const Pair& pair, bool back_to_back, IndexedVector<NodeIndex, Vec3>& way) const {
+    constexpr double clearance = 0.2, at_once = 0.3, more = 1.2; // h, h, of the overlap
+    const auto [f, g] = on_seam(pair[0]) ? pair : Pair{pair[1], pair[0]};
+    const double above = back_to_back ? 1.0 : -1.0;
+    const Vec3 n = -above * normal(g).normalized();
+    const auto lacking = [&](NodeIndex i) {
+      return clearance * size_[index_of(i)] -
+             n.dot(cloud_.position[i] - cloud_.position[cloud_.facets[g].node[0]]);
+    };
+    const auto& corners = cloud_.facets[f].node;
+    const bool any = std::any_of(corners.begin(), corners.end(),
+                                 [&](NodeIndex i) { return within_seam_[i] && lacking(i) > 0.0; });
+    const double overlap = std::min(reach(f, g, above), reach(g, f, above));
+    for (const NodeIndex i : corners) {
+      if (!within_seam_[i]) continue;
+      const double length = std::min(any ? lacking(i) : more * overlap, at_once * size_[index_of(i)]);
+      if (length > way[i].norm()) way[i] = length * n;
+    }
+  }
+
+  /// Images go the longest way of one of them. False: none goes.
+  bool move_alike(IndexedVector<NodeIndex, Vec3>& way) {
+    bool any = false;
+    for (const std::vector<NodeIndex>& group : groups_) {
+      Vec3 longest = Vec3::Zero();
+      bool held = false;
+      for (const NodeIndex i : group) {
+        if (way[i].norm() > longest.norm()) longest = way[i];
+        held = held || held_[i];
+      }
+      if (held || longest.isZero()) continue;
+      for (const NodeIndex i : group) cloud_.position[i] += longest;
+      any = true;
+    }
+    return any;
+  }
+
+  /// Facets that have run into each other go apart along the normal of the one that is entered less deep.
   void push_apart(const std::vector<Pair>& pairs) {
     IndexedVector<NodeIndex, Vec3> way(cloud_.position.size(), Vec3::Zero());
     constexpr double at_once = 0.1; // h
+    const voronoi::Winding winding(cloud_);
     for (const Pair& pair : pairs) {
       const auto [f, g] = pair;
       if (share_a_node(pair) || !(normal(f).dot(normal(g)) < 0.0)) continue;
-      const double into_g = depth(f, g), into_f = depth(g, f);
-      const Vec3 n = into_g < into_f ? normal(g).normalized() : Vec3(-normal(f).normalized());
+      const double above = were_back_to_back(pair, winding) ? 1.0 : -1.0;
+      const double over_g = reach(f, g, above), over_f = reach(g, f, above);
+      const Vec3 n = -above * (over_g < over_f ? normal(g).normalized() : Vec3(-normal(f).normalized()));
       const double h = size_[index_of(cloud_.facets[f].node[0])];
       constexpr double more = 1.2; // than half of it each, to be apart at the end
-      const Vec3 step = std::min(0.5 * more * std::min(into_f, into_g), at_once * h) * n;
+      const Vec3 step = std::min(0.5 * more * std::min(over_g, over_f), at_once * h) * n;
       for (const NodeIndex i : cloud_.facets[f].node)
         if (step.norm() > way[i].norm()) way[i] = step;
       for (const NodeIndex i : cloud_.facets[g].node)
@@ -141,8 +246,10 @@ private:
   const IndexedVector<NodeIndex, char>& held_;
   const Field& size_;
   BoundaryPlanes planes_;
+  const std::vector<PieceIndex>& seams_;
   std::vector<std::vector<NodeIndex>> groups_; ///< of images
   IndexedVector<NodeIndex, char> active_;      ///< nodes that are smoothed
+  IndexedVector<NodeIndex, char> within_seam_; ///< whether all facets of a node are of seams
 };
 
 } // namespace
@@ -150,20 +257,25 @@ private:
 void unfold(Cloud<3>& cloud, const IndexedVector<NodeIndex, char>& held, const Field& size,
             const PeriodImages& images, const SurfaceRules& rules, PassReport& report) {
   const double volume = enclosed_measure(cloud);
-  Unfolding unfolding(cloud, held, size, images);
+  Unfolding unfolding(cloud, held, size, images, rules.still);
   report.folded += unfolding.run();
-  std::vector<NodeIndex> owing;
-  for (const NodeIndex i : cloud.position.indices())
-    if (unfolding.active()[i]) owing.push_back(i);
-  if (owing.empty()) return;
-  Field debt(cloud.position.size(), 0.0);
-  for (const NodeIndex i : owing)
-    debt[index_of(i)] = (volume - enclosed_measure(cloud)) / static_cast<double>(owing.size());
-  WorkingSurface surface(cloud, held, rules);
-  give_back(surface, std::move(debt), size, SurfaceThresholds{}.give_back);
-  Cloud<3> swollen = cloud;
-  for (const NodeIndex i : cloud.position.indices()) swollen.position[i] = surface.at(i);
-  if (voronoi::crossings(swollen).size() <= voronoi::crossings(cloud).size()) cloud = std::move(swollen);
+  IndexedVector<NodeIndex, char> owing = unfolding.active();
+  const auto count = [&] { return std::count(owing.begin(), owing.end(), 1); };
+  if (count() == 0) return;
+  const auto owed = [&] { return volume - enclosed_measure(cloud); };
+  const double enough = 0.01 * std::abs(owed());
+  constexpr int times = 6;
+  for (int n = 0; n < times && std::abs(owed()) > enough; ++n) {
+    Field debt(cloud.position.size(), 0.0);
+    for (const NodeIndex i : owing.indices())
+      if (owing[i]) debt[index_of(i)] = owed() / static_cast<double>(count());
+    WorkingSurface surface(cloud, held, rules);
+    give_back(surface, std::move(debt), size, SurfaceThresholds{}.give_back);
+    Cloud<3> swollen = cloud;
+    for (const NodeIndex i : cloud.position.indices()) swollen.position[i] = surface.at(i);
+    if (voronoi::crossings(swollen).size() <= voronoi::crossings(cloud).size()) cloud = std::move(swollen);
+    owing = with_neighbours(cloud, owing);
+  }
 }
 
 } // namespace cnem::adapt
