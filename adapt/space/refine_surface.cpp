@@ -162,10 +162,7 @@ private:
       const NodeIndex a = surface_.start(e), b = surface_.end(e), i = surface_.apex(e);
       const Vec3 along = surface_.at(b) - surface_.at(a), to = surface_.at(i) - surface_.at(a);
       const double place = to.dot(along) / along.squaredNorm();
-      double height = along.cross(to).norm() / along.norm() / spacing(e);
-      // of a seam that has come to lie flat below a face it is the metal between them that counts
-      if (surface_.is_still(surface_.piece(e)) && !surface_.is_still(surface_.piece(surface_.across(e))))
-        height *= acuteness(surface_, e);
+      const double height = along.cross(to).norm() / along.norm() / spacing(e);
       if (!(place > 0.0 && place < 1.0 && height < limit_.low_height)) continue;
       list.push_back({height, i, place < 0.5 ? a : b});
     }

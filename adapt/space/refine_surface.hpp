@@ -16,9 +16,8 @@ namespace cnem::adapt {
 struct SurfaceThresholds {
   double split_edge = 1.5;  ///< longer edges are split
   double short_edge = 0.45; ///< shorter ones collapsed
-  /// Nodes nearer to a crease go into one of its nodes; within a side of a period nearer to the face beyond.
-  double low_height = 0.3;
-  double give_back = 0.1; ///< how far a node moves at most to give back volume
+  double low_height = 0.3;  ///< nodes nearer to a crease go into one of its nodes
+  double give_back = 0.1;   ///< how far a node moves at most to give back volume
   int rounds = 3;
 };
 

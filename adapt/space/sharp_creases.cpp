@@ -9,6 +9,9 @@ namespace cnem::adapt {
 
 using Edge = WorkingSurface::Edge;
 
+namespace {
+
+/// sin α of an acute angle in the metal between the facets of an edge; 1 where it is none, as at a notch.
 double acuteness(const WorkingSurface& surface, Edge e) {
   const Vec3 from = surface.at(surface.start(e)), along = surface.at(surface.end(e)) - from;
   const Vec3 one = along.cross(surface.at(surface.apex(e)) - from),
@@ -18,6 +21,8 @@ double acuteness(const WorkingSurface& surface, Edge e) {
   if (!(lengths > 0.0) || one.dot(other) >= 0.0 || turn.dot(along) <= 0.0) return 1.0;
   return turn.norm() / lengths;
 }
+
+} // namespace
 
 Field spacing_at_sharp_creases(const WorkingSurface& surface, const Field& wanted) {
   constexpr double widest = 4.0, growth = 0.5; // over h, and for each length that is as long

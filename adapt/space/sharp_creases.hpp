@@ -5,9 +5,6 @@
 
 namespace cnem::adapt {
 
-/// sin α of an acute angle in the metal between the facets of an edge; 1 where it is none, as at a notch.
-double acuteness(const WorkingSurface& surface, WorkingSurface::Edge e);
-
 /// The spacing (m, [node]) at which nodes of a surface are no nearer to the face behind them than `wanted`
 /// (m, [node]): h/sin α, but no more than 4 h, at creases of an acute angle α in the metal, and falling by
 /// half of the distance from them along the edges. The stable step is that of cells as thick as the metal

@@ -109,30 +109,6 @@ TEST(Periods, what_is_refined_on_one_side_is_refined_on_the_other) {
   EXPECT_GT(fine, 2 * 9);
 }
 
-/// What drags the border of a side along lays the side flat below the face there: nodes of the side that are
-/// nearer to the face than to its border go, before the metal between them gets thinner than a step bears and
-/// they pass through the face.
-TEST(Periods, nodes_of_a_side_go_where_it_lies_flat_below_a_face) {
-  Periodic body({"x"});
-  const double h = 1.0 / 6.0, depth = 0.15 * h;
-  const auto near_top = [&] {
-    int count = 0;
-    for (const auto& [a, b] : shifted_nodes(body.cloud, body.rules.periods[0])) {
-      const double below = 1.0 - body.cloud.position[a].z();
-      count += below > 1e-9 && below < 0.3 * h;
-    }
-    return count;
-  };
-  for (Vec3& x : body.cloud.position)
-    if ((x.x() < 1e-9 || x.x() > 1.0 - 1e-9) && x.y() > 1e-9 && x.y() < 1.0 - 1e-9 &&
-        std::abs(x.z() - (1.0 - h)) < 1e-9)
-      x += Vec3(0.6 * h, 0.0, h - depth);
-  ASSERT_EQ(near_top(), 5);
-  body.pass();
-  EXPECT_EQ(near_top(), 0);
-  EXPECT_EQ(body.total.crossings, 0);
-}
-
 TEST(Periods, facets_of_the_second_side_become_those_of_the_first) {
   Cloud<3> cloud = testing::recovered({.cells = 4}).cloud;
   const std::array<Period, 1> periods{{{piece_of(cloud, "x-"), piece_of(cloud, "x+")}}};
