@@ -11,6 +11,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <set>
+#include <string_view>
 
 namespace cnem::evaluate {
 namespace {
@@ -120,7 +121,8 @@ void pass_alike(ExperimentResult& result, const ToolCurve& tool) {
                       computed = tool.force.force;
   const auto farthest = index_of(std::max_element(tool.x.begin(), tool.x.end()) - tool.x.begin());
   for (std::size_t k = 0; k < time.size(); ++k)
-    if (k > farthest || tool.x[k] < result.measured.x.front() || tool.x[k] > result.measured.x.back())
+    if (k > farthest || !std::isfinite(computed[k]) || tool.x[k] < result.measured.x.front() ||
+        tool.x[k] > result.measured.x.back())
       measured[k] = computed[k] = none;
   const std::vector<double> a = gaussian_filter(time, measured, sigma, tool.force.even_time),
                             b = gaussian_filter(time, computed, sigma, tool.force.even_time);
@@ -270,8 +272,10 @@ std::vector<ExperimentResult> read_experiments(const std::filesystem::path& fold
     auto experiments = records_of<ExperimentResult>(list, experiment_carrier);
     for (std::size_t k = 0; k < experiments.size(); ++k) {
       for (const auto& [name, curve] : curves_of(experiments[k]))
-        *curve = {list[k].at(name).at("x").get<std::vector<double>>(),
-                  list[k].at(name).at("y").get<std::vector<double>>()};
+        if (list[k].contains(name) ||
+            !std::string_view(name).starts_with("passed")) // runs of earlier versions
+          *curve = {list[k].at(name).at("x").get<std::vector<double>>(),
+                    list[k].at(name).at("y").get<std::vector<double>>()};
       experiments[k].difference = compare_curves(experiments[k].measured, experiments[k].computed);
     }
     return experiments;

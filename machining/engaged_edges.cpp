@@ -18,7 +18,7 @@ constexpr double quarter_turn = 0.5 * std::numbers::pi;
 std::vector<double> ends_of_slices(const Cutter& cutter, double depth) {
   std::vector<double> ends{0.0};
   if (cutter.corner > 0.0) {
-    constexpr int arcs = 45;
+    constexpr int arcs = 24;
     for (int k = 1; k <= arcs; ++k) ends.push_back(cutter.corner * (1.0 - std::cos(quarter_turn * k / arcs)));
     while (ends.size() > 1 && ends.back() >= depth) ends.pop_back();
     ends.push_back(depth);
@@ -68,7 +68,7 @@ void integrate(double from, double to, double phi, double change, std::span<cons
   constexpr double piece = 0.5, short_one = 0.1; // rad
   const double turn = std::abs(change) * (to - from);
   const int pieces = std::max(1, static_cast<int>(std::ceil(turn / piece)));
-  const GaussRule& rule = gauss_rule(turn > short_one ? 8 : 3);
+  const GaussRule& rule = gauss_rule(turn > short_one ? 8 : 2);
   const double width = (to - from) / pieces;
   for (int k = 0; k < pieces; ++k)
     for (std::size_t i = 0; i < rule.node.size(); ++i)
@@ -77,12 +77,12 @@ void integrate(double from, double to, double phi, double change, std::span<cons
 
 } // namespace
 
-Vec3 EdgeSlice::on_tool(double phi, const Vec3& force) const {
-  return machining::on_tool(
-      phi, Vec3(force[0], sine * force[1] + cosine * force[2], sine * force[2] - cosine * force[1]));
+DirectionalFactors EdgeSlice::answer(double phi, const Vec3& force) const {
+  const double s = std::sin(phi), c = std::cos(phi);
+  const double radial = sine * force[1] + cosine * force[2], axial = sine * force[2] - cosine * force[1];
+  const Vec3 on_tool(-force[0] * c - radial * s, force[0] * s - radial * c, -axial);
+  return width * on_tool * Eigen::RowVector3d(sine * s, sine * c, -cosine);
 }
-
-Vec3 EdgeSlice::outward(double phi) const { return sine * machining::outward(phi) - cosine * Vec3::UnitZ(); }
 
 std::vector<EdgeSlice> edge_slices(const MillingCut& cut, double depth) {
   const Cutter& cutter = cut.cutter;
@@ -91,7 +91,6 @@ std::vector<EdgeSlice> edge_slices(const MillingCut& cut, double depth) {
   for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
     const double low = ends[k], high = ends[k + 1];
     EdgeSlice& slice = slices.emplace_back();
-    slice.height = high - low;
     slice.radius = cutter.mean_radius(low, high);
     slice.width = cutter.profile(low, high);
     if (const double lead = cutter.lead(low, high); lead != quarter_turn) {
@@ -182,15 +181,14 @@ DirectionalFactors EngagedEdges::factors_at(const EdgeSlice& slice, std::size_t 
   const double h = slice.sine * steady_thickness(cut_, tooth, phi);
   if (!(h > 0.0) && !slice.law.linear()) return DirectionalFactors::Zero();
   const LawPoint point = slice.law.at({.thickness = h, .speed = spindle_ * slice.radius});
-  return slice.width * slice.on_tool(phi, point.slope) * slice.outward(phi).transpose();
+  return slice.answer(phi, point.slope);
 }
 
 DirectionalFactors EngagedEdges::damping_at(const EdgeSlice& slice, std::size_t tooth, double phi) const {
   if (!(steady_thickness(cut_, tooth, phi) > 0.0)) return DirectionalFactors::Zero();
   const double damping = cut_.flank.about(slice.radius)
                              .damping(flank_rise(cut_, tooth, phi, slice.radius), spindle_ * slice.radius);
-  return slice.width * damping * slice.on_tool(phi, Vec3(cut_.flank.friction, 1.0, 0.0)) *
-         slice.outward(phi).transpose();
+  return slice.answer(phi, damping * Vec3(cut_.flank.friction, 1.0, 0.0));
 }
 
 DirectionalFactors EngagedEdges::factors(std::size_t tooth, double tip) const {

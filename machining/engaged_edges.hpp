@@ -11,19 +11,17 @@ namespace cnem::machining {
 
 /// A part of the edges between two heights, on a cone of its own about the axis: the same of every tooth.
 struct EdgeSlice {
-  double height = 0.0;             ///< m
   double radius = 0.0;             ///< m, mean
   double width = 0.0;              ///< m, of the chip: along the profile
   double sine = 1.0, cosine = 0.0; ///< of the angle between the axis and the normal of the profile
   std::array<double, 2> lag{};     ///< rad at its ends, linear between
-  std::array<double, 2> entry{},
-      exit{};     ///< rad at its ends: a rounded end is less in the cut towards its tip
+  std::array<double, 2> entry{};   ///< rad at its ends: a rounded end is less in the cut towards its tip
+  std::array<double, 2> exit{};
   CuttingLaw law; ///< of its angles
 
-  /// Force on the tool at φ of what an edge bears: tangential, normal to the profile, along it.
-  Vec3 on_tool(double phi, const Vec3& force) const;
-  /// Away from the cutter, normal to the profile.
-  Vec3 outward(double phi) const;
+  /// Force on the tool by its displacement, of the whole slice at φ, where forces per width (tangential,
+  /// normal to the profile, along it) are in proportion to what of it is along the normal.
+  DirectionalFactors answer(double phi, const Vec3& force) const;
 };
 
 /// From the tip up to a depth: one of a flat end, those of a face or of a corner's arc otherwise.

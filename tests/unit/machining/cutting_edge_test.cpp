@@ -215,25 +215,25 @@ TEST(CuttingEdge, RefusesWhatIsNoRakeFace) {
 
 /// Lobes take what a face is like as the time domain does: those of the cutter that it is of.
 TEST(CuttingEdge, HasTheLobesOfItsCutter) {
-  for (const double corner : {0.0, 2e-3, 5e-3})
-    for (const Engagement::Side side : {Engagement::Side::up, Engagement::Side::down}) {
-      MillingCut cut = milling_cut(3, 6e8, 2e8, side, 0.4);
-      cut.cutter = formed(corner);
-      cut.engagement.radial_depth = 4e-3;
-      MillingCut by_face = cut;
-      by_face.cutter = traced(cut.cutter, 6e-3);
-      std::vector<Mode> modes = spindle_modes();
-      modes[0].direction = Vec3(0.8, 0.0, 0.6);
-      const auto limits = [&](const MillingCut& one) {
-        const auto floquet = depth_limit(one, modes, 7000.0 * rpm, 2e-4, 5e-3);
-        const auto zero = zero_order_limit(one, modes, 7000.0 * rpm);
-        EXPECT_TRUE(floquet && zero) << corner;
-        return floquet && zero ? std::array{floquet->depth, zero->depth} : std::array{0.0, 0.0};
-      };
-      const auto given = limits(cut), of_face = limits(by_face);
-      for (const std::size_t k : {0, 1})
-        EXPECT_NEAR(of_face[k] / given[k], 1.0, corner > 0.0 ? 2e-3 : 1e-4) << corner << ' ' << k;
-    }
+  using enum Engagement::Side;
+  for (const auto& [corner, side] : {std::pair{0.0, up}, {2e-3, down}, {5e-3, down}}) {
+    MillingCut cut = milling_cut(3, 2e9, 8e8, side, 0.4);
+    cut.cutter = formed(corner);
+    cut.engagement.radial_depth = 5e-3;
+    MillingCut by_face = cut;
+    by_face.cutter = traced(cut.cutter, 6e-3);
+    std::vector<Mode> modes = spindle_modes();
+    modes[0].direction = Vec3(0.8, 0.0, 0.6);
+    const auto limits = [&](const MillingCut& one) {
+      const auto floquet = depth_limit(one, modes, 7000.0 * rpm, 4e-4, 5e-3);
+      const auto zero = zero_order_limit(one, modes, 7000.0 * rpm);
+      EXPECT_TRUE(floquet && zero) << corner;
+      return floquet && zero ? std::array{floquet->depth, zero->depth} : std::array{0.0, 0.0};
+    };
+    const auto given = limits(cut), of_face = limits(by_face);
+    for (const std::size_t k : {0, 1})
+      EXPECT_NEAR(of_face[k] / given[k], 1.0, corner > 0.0 ? 2e-3 : 1e-4) << corner << ' ' << k;
+  }
 }
 
 /// A corner that is nearly none: limits are those of a flat end.
