@@ -73,6 +73,7 @@ std::vector<double> equal_pitch(std::size_t teeth) {
 
 double Engagement::side_cosine(const Cutter& cutter, double radius) const {
   const double beyond = cutter.radius() - radial_depth; // m, of the side from the axis
+  if (beyond == 0.0) return 0.0;                        // also at the tip of a ball
   return radius > std::abs(beyond) ? beyond / radius : std::copysign(1.0, beyond);
 }
 

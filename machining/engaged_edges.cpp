@@ -15,11 +15,18 @@ namespace {
 constexpr double quarter_turn = 0.5 * std::numbers::pi;
 
 /// Heights between which edges are taken for cones, from the tip upwards.
-std::vector<double> ends_of_slices(const Cutter& cutter, double depth) {
+std::vector<double> ends_of_slices(const MillingCut& cut, double depth) {
+  const Cutter& cutter = cut.cutter;
   std::vector<double> ends{0.0};
   if (cutter.corner > 0.0) {
     constexpr int arcs = 24;
     for (int k = 1; k <= arcs; ++k) ends.push_back(cutter.corner * (1.0 - std::cos(quarter_turn * k / arcs)));
+    // Below the radius that comes to the workpiece nothing is cut.
+    const double comes = std::abs(cutter.radius() - cut.engagement.radial_depth);
+    if (const double sine = 1.0 - (cutter.radius() - comes) / cutter.corner; sine > 0.0) {
+      const double z = cutter.corner * (1.0 - std::sqrt(1.0 - sine * sine));
+      ends.insert(std::upper_bound(ends.begin(), ends.end(), z), z);
+    }
     while (ends.size() > 1 && ends.back() >= depth) ends.pop_back();
     ends.push_back(depth);
   } else if (cutter.edge) {
@@ -86,7 +93,7 @@ DirectionalFactors EdgeSlice::answer(double phi, const Vec3& force) const {
 
 std::vector<EdgeSlice> edge_slices(const MillingCut& cut, double depth) {
   const Cutter& cutter = cut.cutter;
-  const std::vector<double> ends = ends_of_slices(cutter, depth);
+  const std::vector<double> ends = ends_of_slices(cut, depth);
   std::vector<EdgeSlice> slices;
   for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
     const double low = ends[k], high = ends[k + 1];
