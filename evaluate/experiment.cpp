@@ -11,6 +11,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <set>
+#include <string_view>
 
 namespace cnem::evaluate {
 namespace {
@@ -77,23 +78,65 @@ Vec3 direction(input::Experiment::Component component, const Vec3& motion) {
   return motion;
 }
 
-/// The force of a tool over the stroke of the one that leads, or over time; positive where it is largest.
-ComparedCurve computed_curve(const results::HistoryTable& history, const std::string& tool,
-                             const LeadingForce& motion, const input::Experiment& experiment) {
+/// The force of a tool and the stroke of the one that leads, or the time in its place; positive where the
+/// force is largest.
+struct ToolCurve {
+  ForceCurve force;
+  std::vector<double> x, even_x; ///< of each row, at even times
+  double sign = 1.0;
+};
+
+ToolCurve tool_curve(const results::HistoryTable& history, const std::string& tool,
+                     const LeadingForce& motion, const input::Experiment& experiment) {
   const auto along = [&](const Vec3& way) {
     return force_curve(history, tool, motion.of, motion.against, way);
   };
-  const ForceCurve force = along(direction(experiment.component, motion.along));
-  const std::vector<double> x = experiment.over_stroke ? along(motion.along).even_stroke : force.even_time;
-  const double sign = force.smooth[force.largest] < 0.0 ? -1.0 : 1.0;
+  ToolCurve curve{.force = along(direction(experiment.component, motion.along)), .x = {}, .even_x = {}};
+  const ForceCurve stroke = along(motion.along);
+  curve.x = experiment.over_stroke ? stroke.stroke : curve.force.time;
+  curve.even_x = experiment.over_stroke ? stroke.even_stroke : curve.force.even_time;
+  if (curve.force.smooth[curve.force.largest] < 0.0) curve.sign = -1.0;
+  return curve;
+}
+
+ComparedCurve computed_curve(const ToolCurve& tool, double factor) {
   ComparedCurve curve;
-  for (std::size_t k = 0; k < x.size(); ++k) { // of few rows the low-pass may find none near enough
-    if (!std::isfinite(x[k]) || !std::isfinite(force.smooth[k])) continue;
-    curve.x.push_back(x[k]);
-    curve.y.push_back(sign * force.smooth[k]);
+  for (std::size_t k = 0; k < tool.even_x.size(); ++k) { // of few rows the low-pass may find none near enough
+    if (!std::isfinite(tool.even_x[k]) || !std::isfinite(tool.force.smooth[k])) continue;
+    curve.x.push_back(tool.even_x[k]);
+    curve.y.push_back(tool.sign * factor * tool.force.smooth[k]);
   }
   input::keep_growing(curve.x, curve.y);
   return curve;
+}
+
+/// A curve blunts where it rises by a low-pass: the measured one is taken row by row of the run and goes
+/// through the same, with the same rows.
+void pass_alike(ExperimentResult& result, const ToolCurve& tool) {
+  const std::vector<double>& time = tool.force.time;
+  const double sigma = force_filter(time);
+  if (!(sigma > 0.0)) return;
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> measured = interpolated(result.measured.x, result.measured.y, tool.x),
+                      computed = tool.force.force;
+  const auto farthest = index_of(std::max_element(tool.x.begin(), tool.x.end()) - tool.x.begin());
+  for (std::size_t k = 0; k < time.size(); ++k)
+    if (k > farthest || !std::isfinite(computed[k]) || tool.x[k] < result.measured.x.front() ||
+        tool.x[k] > result.measured.x.back())
+      measured[k] = computed[k] = none;
+  const std::vector<double> a = gaussian_filter(time, measured, sigma, tool.force.even_time),
+                            b = gaussian_filter(time, computed, sigma, tool.force.even_time);
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    const double x = tool.even_x[k];
+    std::vector<double>& places = result.passed_measured.x;
+    if (!std::isfinite(a[k]) || !std::isfinite(b[k]) || x < result.measured.x.front() ||
+        x > result.measured.x.back() || (!places.empty() && x <= places.back()))
+      continue;
+    places.push_back(x);
+    result.passed_measured.y.push_back(a[k]);
+    result.passed_computed.y.push_back(tool.sign * result.factor * b[k]);
+  }
+  result.passed_computed.x = result.passed_measured.x;
 }
 
 std::string note_of(const ExperimentResult& result) {
@@ -115,6 +158,13 @@ std::string note_of(const ExperimentResult& result) {
   if (d.to < d.at_computed)
     return fmt::format("The measured curve ends at {}, before the computed peak.", text(d.to));
   return "";
+}
+
+/// Those of a result by the names they have in its file.
+template<class Result> auto curves_of(Result& result) {
+  return std::array{std::pair{"measured", &result.measured}, std::pair{"computed", &result.computed},
+                    std::pair{"passed_measured", &result.passed_measured},
+                    std::pair{"passed_computed", &result.passed_computed}};
 }
 
 double relative(double computed, double measured) { return computed / measured - 1.0; }
@@ -169,9 +219,10 @@ std::vector<ExperimentResult> evaluate_experiments(const input::Case& input,
     result.factor =
         round ? (experiment.per_length ? 1.0 / length : 1.0) : (experiment.per_length ? 1.0 : length) / cuts;
     result.measured = {experiment.x, experiment.force};
-    result.computed =
-        computed_curve(history, result.tool, motion_of(result.tool, history, blanking), experiment);
-    for (double& value : result.computed.y) value *= result.factor;
+    const ToolCurve tool =
+        tool_curve(history, result.tool, motion_of(result.tool, history, blanking), experiment);
+    result.computed = computed_curve(tool, result.factor);
+    pass_alike(result, tool);
     result.difference = compare_curves(result.measured, result.computed);
     result.note = note_of(result);
     list.push_back(std::move(result));
@@ -210,8 +261,7 @@ void write_experiments(const std::filesystem::path& folder,
   Json json = Json::object();
   Json& list = json["experiments"] = list_of(experiments, experiment_carrier);
   for (std::size_t k = 0; k < experiments.size(); ++k)
-    for (const auto& [name, curve] :
-         {std::pair{"measured", &experiments[k].measured}, {"computed", &experiments[k].computed}})
+    for (const auto& [name, curve] : curves_of(experiments[k]))
       list[k][name] = {{"x", curve->x}, {"y", curve->y}};
   results::write_atomically(folder / results::files::experiment, json.dump(1) + "\n");
 }
@@ -221,10 +271,11 @@ std::vector<ExperimentResult> read_experiments(const std::filesystem::path& fold
     const Json& list = json.at("experiments");
     auto experiments = records_of<ExperimentResult>(list, experiment_carrier);
     for (std::size_t k = 0; k < experiments.size(); ++k) {
-      for (const auto& [name, curve] :
-           {std::pair{"measured", &experiments[k].measured}, {"computed", &experiments[k].computed}})
-        *curve = {list[k].at(name).at("x").get<std::vector<double>>(),
-                  list[k].at(name).at("y").get<std::vector<double>>()};
+      for (const auto& [name, curve] : curves_of(experiments[k]))
+        if (list[k].contains(name) ||
+            !std::string_view(name).starts_with("passed")) // runs of earlier versions
+          *curve = {list[k].at(name).at("x").get<std::vector<double>>(),
+                    list[k].at(name).at("y").get<std::vector<double>>()};
       experiments[k].difference = compare_curves(experiments[k].measured, experiments[k].computed);
     }
     return experiments;

@@ -40,6 +40,9 @@ struct ExperimentResult {
   std::string force_unit = "N", work_unit = "J"; ///< or N/m, J/m of cut
   double factor = 1.0;                           ///< computed forces are those of the model times it
   ComparedCurve measured, computed;              ///< m or s; N or N/m
+  /// Both through one low-pass, over what both have: their difference is that of the forces themselves
+  /// through it, also where these rise.
+  ComparedCurve passed_measured, passed_computed;
   CurveDifference difference;
   std::string note; ///< what keeps them from being compared, or makes the numbers doubtful; empty otherwise
 };

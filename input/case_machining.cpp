@@ -109,7 +109,7 @@ NamedMode read_mode(const Setting& table, Diagnostics& diagnostics) {
 
 void check_modes(const Setting& modes, const MachiningCase& read, Diagnostics& diagnostics) {
   constexpr double along_axis = 1e-9;
-  if (read.modes.empty()) return;
+  if (read.modes.empty() || read.cut.cutter.rounded()) return;
   if (std::any_of(read.modes.begin(), read.modes.end(),
                   [](const NamedMode& mode) { return !(mode.direction.norm() > 0.0); }))
     return; // it has been told
@@ -123,16 +123,6 @@ void check_modes(const Setting& modes, const MachiningCase& read, Diagnostics& d
 void check_time_domain(const Setting& root, const MachiningCase& read, Analysis::Type type,
                        Diagnostics& diagnostics) {
   const machining::Cutter& cutter = read.cut.cutter;
-  if (const Setting* face = root.find("cutter.rake_face"); face && type == Analysis::Type::stability)
-    diagnostics.add(
-        Mistake::conflict, face->where, face->path,
-        "found a rake face, expected cutter.helix and an end that is flat: lobes are those of edges "
-        "at one radius; analysis.type = \"milling\" takes any");
-  if (const Setting* end = root.find("cutter.end");
-      end && cutter.corner > 0.0 && type == Analysis::Type::stability)
-    diagnostics.add(Mistake::conflict, end->where, end->path,
-                    "found a rounded end, expected a flat one: lobes are those of edges at one radius, whose "
-                    "chips do not change with a motion along z; analysis.type = \"milling\" takes any");
   const Setting* places = root.find("stability.places");
   for (const NamedMode& mode : read.modes) {
     if (type == Analysis::Type::stability && (mode.height.size > 0 || (mode.along.size > 0 && !places)))

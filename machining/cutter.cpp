@@ -49,6 +49,11 @@ double Cutter::mean_radius(double from, double to) const {
          (high - low);
 }
 
+double Cutter::radius_at(double z) const {
+  if (edge) return edge->mean_radius(z, z);
+  return corner > 0.0 ? radius() - corner + corner * std::sin(arc(z)) : radius();
+}
+
 double Cutter::profile(double from, double to) const {
   if (edge) return edge->length(from, to);
   if (!(corner > 0.0)) return to - from;
@@ -66,13 +71,18 @@ std::vector<double> equal_pitch(std::size_t teeth) {
   return std::vector<double>(teeth, 2.0 * std::numbers::pi / static_cast<double>(teeth));
 }
 
-double Engagement::entry(const Cutter& cutter) const {
-  return side == Side::up ? 0.0 : std::acos(std::clamp(radial_depth / cutter.radius() - 1.0, -1.0, 1.0));
+double Engagement::side_cosine(const Cutter& cutter, double radius) const {
+  const double beyond = cutter.radius() - radial_depth; // m, of the side from the axis
+  if (beyond == 0.0) return 0.0;                        // also at the tip of a ball
+  return radius > std::abs(beyond) ? beyond / radius : std::copysign(1.0, beyond);
 }
 
-double Engagement::exit(const Cutter& cutter) const {
-  return side == Side::up ? std::acos(std::clamp(1.0 - radial_depth / cutter.radius(), -1.0, 1.0))
-                          : std::numbers::pi;
+double Engagement::entry(const Cutter& cutter, double radius) const {
+  return side == Side::up ? 0.0 : std::acos(-side_cosine(cutter, radius));
+}
+
+double Engagement::exit(const Cutter& cutter, double radius) const {
+  return side == Side::up ? std::acos(side_cosine(cutter, radius)) : std::numbers::pi;
 }
 
 } // namespace cnem::machining

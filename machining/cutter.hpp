@@ -50,6 +50,8 @@ struct Cutter {
   double period(bool told_apart) const;
   /// m, mean radius of the edges between two heights; below the tip that of the tip.
   double mean_radius(double from, double to) const;
+  /// m, of the edges at a height.
+  double radius_at(double z) const;
   /// m, length of the profile between two heights ≥ 0.
   double profile(double from, double to) const;
   /// rad between the axis and the normal of the profile, in the middle of its length between two heights: 90°
@@ -71,8 +73,16 @@ struct Engagement {
   double radial_depth = 0.0; ///< m; the diameter: a slot
 
   /// Angles at which an edge enters and leaves: 0 … acos(1 − ae/R), or acos(ae/R − 1) … π.
-  double entry(const Cutter& cutter) const;
-  double exit(const Cutter& cutter) const;
+  double entry(const Cutter& cutter) const { return entry(cutter, cutter.radius()); }
+  double exit(const Cutter& cutter) const { return exit(cutter, cutter.radius()); }
+  /// Of an edge at another radius, m, of the same cutter; the same angle where it does not come to the
+  /// workpiece.
+  double entry(const Cutter& cutter, double radius) const;
+  double exit(const Cutter& cutter, double radius) const;
+
+private:
+  /// Cosine of the angle at which a radius meets the free side of the workpiece, in up-milling.
+  double side_cosine(const Cutter& cutter, double radius) const;
 };
 
 /// How a chip thickness and forces stand at an edge at φ.

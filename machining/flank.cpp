@@ -18,6 +18,12 @@ double positive_part(double a, double b, double length) {
 
 } // namespace
 
+Flank Flank::about(double radius) const {
+  Flank there = *this;
+  there.land = std::min(land, widest_land * radius);
+  return there;
+}
+
 double Flank::contact(double rise) const {
   const double leaves = std::tan(clearance) - rise;
   return recovery >= leaves * land ? land : recovery / leaves;

@@ -22,6 +22,8 @@ struct Flank {
   double friction = 0.0;       ///< of the force against the motion of the edge
 
   bool presses() const { return land > 0.0 && specific_force > 0.0; }
+  /// The same about an axis at a distance, m: near the tip of a ball lands end at `widest_land`.
+  Flank about(double radius) const;
   /// m behind the edge as far as the land touches, of an edge whose way leaves the circle outwards by `rise`
   /// per length and does not vibrate.
   double contact(double rise) const;

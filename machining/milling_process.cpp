@@ -299,6 +299,11 @@ double MillingProcess::rubbing(double chip) const {
   return give * edges().bears(chip, settings_.spindle * cut_.cutter.radius());
 }
 
+double MillingProcess::finer(double times) const {
+  constexpr double spare = 1.25, tens = 10.0;
+  return tens * std::ceil(spare * times * settings_.steps / tens);
+}
+
 ProcessStep MillingProcess::make_step() {
   take_shapes();
   PerLayer shift = shift_of(moved(force_));
@@ -329,12 +334,13 @@ ProcessStep MillingProcess::make_step() {
       break;
     }
     if (iteration >= most && part_) part_->check(); // what folds need not agree with anything
-    if (iteration >= most)
-      throw DivergenceError(fmt::format("forces and vibration of a step do not agree: the shift of the "
-                                        "cutter still changes by {:.3g} m, "
-                                        "expected smaller steps (dexels.steps)",
-                                        change),
-                            -1, "displacement");
+    if (iteration >= most) // an impulse of a force that comes or goes moves a mode by the square of the step
+      throw DivergenceError(
+          fmt::format("forces and vibration of a step do not agree: the shift of the cutter still changes by "
+                      "{:.3g} m, where {:.3g} m is little; expected smaller steps, dexels.steps = {:.0f} or "
+                      "more",
+                      change, rubs, finer(std::sqrt(change / rubs))),
+          -1, "displacement");
   }
   if (part_) part_->check();
   ProcessStep step;

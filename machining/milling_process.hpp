@@ -131,6 +131,8 @@ private:
   void begin_pass(std::size_t pass);
   /// m, by how much modes move at most in a step for the forces of edges that only touch.
   double rubbing(double chip) const;
+  /// How many steps a turn are so many times as many and a quarter to spare, in tens.
+  double finer(double times) const;
   /// What edges meet, answered by questions until shifts agree, and the step that erases it.
   ProcessStep make_step();
   /// What teeth remove and bear whose cutter is shifted at the end of the step, m for each layer; forces on

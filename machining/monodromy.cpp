@@ -19,23 +19,17 @@ using Index = Eigen::Index;
 
 Index size_of(std::size_t n) { return static_cast<Index>(n); }
 
-/// Angles in [0, period) at which an edge of the cutter enters or leaves, or its factors have a kink, tip or
-/// upper end, and 0.
-std::vector<double> break_points(const MillingCut& cut, double depth, double period) {
+/// Angles in [0, period) at which factors of a tooth have a jump or a kink, and 0.
+std::vector<double> break_points(const MillingCut& cut, const EngagedEdges& edges, double period) {
   std::vector<double> list{0.0};
-  for (std::size_t j = 0; j < cut.cutter.teeth(); ++j) {
-    std::vector<double> places = changes_within(cut, j);
-    places.push_back(cut.engagement.entry(cut.cutter));
-    places.push_back(cut.engagement.exit(cut.cutter));
-    for (const double at : places)
-      for (const double lag : {0.0, cut.cutter.lag(depth)}) {
-        const double angle = at + lag + cut.cutter.behind(j);
-        list.push_back(angle - period * std::floor(angle / period));
-      }
-  }
+  for (std::size_t j = 0; j < cut.cutter.teeth(); ++j)
+    for (const double change : edges.changes(j)) {
+      const double angle = change + cut.cutter.behind(j);
+      list.push_back(angle - period * std::floor(angle / period));
+    }
   std::sort(list.begin(), list.end());
   list.push_back(period);
-  constexpr double same = 1e-10;
+  const double same = edges.rounding();
   std::vector<double> apart{0.0};
   for (const double angle : list)
     if (angle > apart.back() + same) apart.push_back(angle);
@@ -53,23 +47,26 @@ Monodromy::Monodromy(const MillingCut& cut, std::span<const Mode> modes, double 
     participation_.col(i) = modes_[index_of(i)].participation();
     fastest_ = std::max(fastest_, modes_[index_of(i)].omega());
   }
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(participation_.topRows<2>());
+  Eigen::MatrixXd known = participation_; // to chips: a flat end moves along its edges in z
+  if (!cut.cutter.rounded()) known.row(2).setZero();
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(known);
   qr.setThreshold(1e-9);
   d_ = qr.rank();
   basis_ = Eigen::MatrixXd(qr.householderQ()).leftCols(d_);
-  shape_ = basis_.transpose() * participation_.topRows<2>();
+  shape_ = basis_.transpose() * known;
   ploughs_ = cut.flank.presses();
   each_ = ploughs_ ? 2 * d_ : d_;
   states_ = 2 * m;
-  divide(cut, spindle, depth);
-  couple(cut, spindle, depth);
+  const EngagedEdges edges(cut, depth, spindle);
+  divide(cut, edges, spindle);
+  couple(cut, edges, spindle);
   for (Element& element : elements_) solve(element, modes);
 }
 
-void Monodromy::divide(const MillingCut& cut, double spindle, double depth) {
+void Monodromy::divide(const MillingCut& cut, const EngagedEdges& edges, double spindle) {
   const double angle = period_of(cut);
   period_ = angle / spindle;
-  const std::vector<double> breaks = break_points(cut, depth, angle);
+  const std::vector<double> breaks = break_points(cut, edges, angle);
   // rad of the cutter, rad of the fastest mode; what a tooth cut before it lies in an earlier element.
   const double widest =
       std::min(0.8, 0.5 * *std::min_element(cut.cutter.pitch.begin(), cut.cutter.pitch.end()));
@@ -79,7 +76,7 @@ void Monodromy::divide(const MillingCut& cut, double spindle, double depth) {
     bool cutting = false;
     // One that misses the cut, too: what the next tooth cuts is told from where it was.
     for (std::size_t j = 0; j < cut.cutter.teeth(); ++j)
-      cutting |= engages(cut, j, middle - cut.cutter.behind(j), depth);
+      cutting |= edges.engages(j, middle - cut.cutter.behind(j));
     const double pieces = std::max((to - from) / widest, fastest_ * (to - from) / spindle / longest);
     const int count = cutting ? static_cast<int>(std::ceil(pieces)) : 1;
     for (int k = 0; k < std::max(count, 1); ++k) {
@@ -94,7 +91,7 @@ void Monodromy::divide(const MillingCut& cut, double spindle, double depth) {
   }
 }
 
-void Monodromy::couple(const MillingCut& cut, double spindle, double depth) {
+void Monodromy::couple(const MillingCut& cut, const EngagedEdges& edges, double spindle) {
   const GaussRule& rule = gauss_rule(nodes);
   const Cutter& cutter = cut.cutter;
   const bool even = period_of(cut) == cutter.pitch[0]; // what was cut before lies one period back
@@ -111,7 +108,7 @@ void Monodromy::couple(const MillingCut& cut, double spindle, double depth) {
         best = &element;
       }
     }
-    assert(best && nearest < 1e-6 * period_);
+    assert(best && nearest * spindle < 2.0 * edges.rounding() + 1e-6);
     return *best;
   };
   for (Element& element : elements_) {
@@ -122,9 +119,8 @@ void Monodromy::couple(const MillingCut& cut, double spindle, double depth) {
       for (std::size_t j = 0; j < cutter.teeth(); ++j) {
         const double tip = spindle * time - cutter.behind(j);
         if (ploughs_)
-          all.rightCols(d_) +=
-              fastest_ * participation_.transpose() * damping_factors(cut, j, tip, depth, spindle) * basis_;
-        const DirectionalFactors w = directional_factors(cut, j, tip, depth, spindle);
+          all.rightCols(d_) += fastest_ * participation_.transpose() * edges.damping(j, tip) * basis_;
+        const DirectionalFactors w = edges.factors(j, tip);
         if (w.isZero(0.0)) continue;
         const Eigen::MatrixXd modal = participation_.transpose() * w * basis_;
         all.leftCols(d_) += modal;

@@ -1,7 +1,7 @@
 #pragma once
 // What one period makes of a disturbance of a milling cut: the map whose eigenvalues are Floquet's
 // multipliers. Derived in docs/theory.md, "Stability of milling".
-#include "machining/milling_cut.hpp"
+#include "machining/engaged_edges.hpp"
 #include "machining/mode.hpp"
 
 #include <Eigen/Core>
@@ -50,14 +50,14 @@ private:
     std::vector<Delayed> delayed;
   };
 
-  void divide(const MillingCut& cut, double spindle, double depth);
-  void couple(const MillingCut& cut, double spindle, double depth);
+  void divide(const MillingCut& cut, const EngagedEdges& edges, double spindle);
+  void couple(const MillingCut& cut, const EngagedEdges& edges, double spindle);
   void solve(Element& element, std::span<const Mode> modes);
   template<class See> void march(const Eigen::VectorXd& from, Eigen::VectorXd& to, const See& see) const;
 
   std::vector<Mode> modes_;
   Eigen::MatrixXd participation_; ///< [3 × modes]
-  Eigen::MatrixXd basis_;         ///< [2 × d] of the displacements in x and y that modes make
+  Eigen::MatrixXd basis_;         ///< [3 × d] of the displacements that modes make and chips know
   Eigen::MatrixXd shape_;         ///< [d × modes] basis coordinates of one unit of a mode
   bool ploughs_ = false;          ///< flanks do
   std::vector<Element> elements_;

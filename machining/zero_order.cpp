@@ -1,8 +1,8 @@
 #include "machining/zero_order.hpp"
 
-#include "core/index.hpp"
+#include "machining/engaged_edges.hpp"
 
-#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,33 +13,41 @@ namespace cnem::machining {
 namespace {
 
 using Complex = std::complex<double>;
-using ComplexFactors = Eigen::Matrix<Complex, 3, 2>;
-using EigenvaluePair = std::array<Complex, 2>;
+using ComplexFactors = Eigen::Matrix3cd;
+using Eigenvalues = std::array<Complex, 3>;
 
-/// Eigenvalues of factors times receptance, of which the directions across the axis count.
-EigenvaluePair eigenvalues(const ComplexFactors& factors, std::span<const Mode> modes, double omega) {
-  // u = Φ F and F = a W u have the eigenvalues of (Φ W), which is 2 × 2.
-  Eigen::Matrix<Complex, 2, 2> product = Eigen::Matrix<Complex, 2, 2>::Zero();
+/// Eigenvalues of factors times receptance. Where no chip knows of z, the third is 0.
+Eigenvalues eigenvalues(const ComplexFactors& factors, std::span<const Mode> modes, double omega) {
+  // u = Φ F and F = a W u have the eigenvalues of (Φ W).
+  ComplexFactors product = ComplexFactors::Zero();
   for (const Mode& mode : modes) {
     const double r = omega / mode.omega();
     const Vec3 p = mode.participation();
     const Complex receptance = 1.0 / (mode.stiffness * Complex(1.0 - r * r, 2.0 * mode.damping * r));
-    product += receptance * (p.head<2>().cast<Complex>() * (p.transpose().cast<Complex>() * factors));
+    product += receptance * (p.cast<Complex>() * (p.transpose().cast<Complex>() * factors));
   }
-  const Complex half = 0.5 * (product(0, 0) + product(1, 1));
-  const Complex root = std::sqrt(half * half - product(0, 0) * product(1, 1) + product(0, 1) * product(1, 0));
-  return {half + root, half - root};
+  if (factors.col(2).isZero(0.0)) {
+    const Complex half = 0.5 * (product(0, 0) + product(1, 1));
+    const Complex root =
+        std::sqrt(half * half - product(0, 0) * product(1, 1) + product(0, 1) * product(1, 0));
+    return {half + root, half - root, 0.0};
+  }
+  const Eigen::ComplexEigenSolver<ComplexFactors> solver(product, false);
+  return {solver.eigenvalues()[0], solver.eigenvalues()[1], solver.eigenvalues()[2]};
 }
 
 /// In the order of those before.
-EigenvaluePair followed(EigenvaluePair now, const EigenvaluePair& before) {
-  const double kept = std::abs(now[0] - before[0]) + std::abs(now[1] - before[1]);
-  const double turned = std::abs(now[1] - before[0]) + std::abs(now[0] - before[1]);
-  if (turned < kept) std::swap(now[0], now[1]);
+Eigenvalues followed(Eigenvalues now, const Eigenvalues& before) {
+  for (std::size_t k = 0; k < now.size(); ++k) {
+    const auto nearest = std::min_element(now.begin() + std::ptrdiff_t(k), now.end(), [&](auto& a, auto& b) {
+      return std::abs(a - before[k]) < std::abs(b - before[k]);
+    });
+    std::iter_swap(now.begin() + std::ptrdiff_t(k), nearest);
+  }
   return now;
 }
 
-/// Calls visit(ω, λ) for both eigenvalues of factors(ω) along the frequencies at which modes may chatter.
+/// Calls visit(ω, λ) for the eigenvalues of factors(ω) along the frequencies at which modes may chatter.
 template<class Factors, class Visit>
 void scan(const Factors& factors, std::span<const Mode> modes, double step_bound, Visit&& visit) {
   double low = infinite, high = 0.0, step = step_bound;
@@ -51,7 +59,7 @@ void scan(const Factors& factors, std::span<const Mode> modes, double step_bound
   low *= 0.2;
   high *= 2.5;
   const auto count = static_cast<std::int64_t>(std::ceil((high - low) / step));
-  EigenvaluePair value = eigenvalues(factors(low), modes, low);
+  Eigenvalues value = eigenvalues(factors(low), modes, low);
   for (std::int64_t i = 0; i <= count; ++i) {
     const double omega = low + (high - low) * static_cast<double>(i) / static_cast<double>(count);
     value = followed(eigenvalues(factors(omega), modes, omega), value);
@@ -59,12 +67,9 @@ void scan(const Factors& factors, std::span<const Mode> modes, double step_bound
   }
 }
 
-} // namespace
-
-std::optional<ZeroOrderLimit> zero_order_limit(const MillingCut& cut, std::span<const Mode> modes,
-                                               double spindle) {
-  if (modes.empty()) return std::nullopt;
-  const DirectionalFactors mean = mean_factors(cut, spindle), damping = mean_damping(cut, spindle);
+/// The smallest depth at the margin with these means per depth.
+std::optional<ZeroOrderLimit> limit_of(const MillingCut& cut, std::span<const Mode> modes, double spindle,
+                                       const DirectionalFactors& mean, const DirectionalFactors& damping) {
   const auto regeneration = [&](double omega) {
     Complex sum = 0.0;
     for (const double pitch : cut.cutter.pitch) sum += 1.0 - std::exp(Complex(0.0, -omega * pitch / spindle));
@@ -79,10 +84,10 @@ std::optional<ZeroOrderLimit> zero_order_limit(const MillingCut& cut, std::span<
   const auto scale = [&](double omega) { return ploughs ? Complex(1.0) : regeneration(omega); };
   std::optional<ZeroOrderLimit> least;
   double before = 0.0;
-  EigenvaluePair value_before{};
+  Eigenvalues value_before{};
   const double longest = *std::max_element(cut.cutter.pitch.begin(), cut.cutter.pitch.end()) / spindle;
-  scan(factors, modes, 0.05 / longest, [&](double omega, const EigenvaluePair& value) {
-    for (std::size_t k = 0; before > 0.0 && k < 2; ++k) {
+  scan(factors, modes, 0.05 / longest, [&](double omega, const Eigenvalues& value) {
+    for (std::size_t k = 0; before > 0.0 && k < value.size(); ++k) {
       double low = before, high = omega;
       Complex at_low = value_before[k] * scale(low);
       Complex at_high = value[k] * scale(high);
@@ -91,14 +96,16 @@ std::optional<ZeroOrderLimit> zero_order_limit(const MillingCut& cut, std::span<
       Complex at = at_high;
       for (int i = 0; i < 60 && high - low > 1e-13 * high; ++i) {
         const double middle = 0.5 * (low + high);
-        const EigenvaluePair pair = eigenvalues(factors(middle), modes, middle);
-        const std::size_t near = std::abs(pair[0] - value[k]) <= std::abs(pair[1] - value[k]) ? 0 : 1;
-        at = pair[near] * scale(middle);
+        const Eigenvalues there = eigenvalues(factors(middle), modes, middle);
+        at = *std::min_element(there.begin(), there.end(), [&](const Complex& a, const Complex& b) {
+          return std::abs(a - value[k]) < std::abs(b - value[k]);
+        }) * scale(middle);
         ((at.imag() > 0.0) == (at_low.imag() > 0.0) ? low : high) = middle;
       }
-      constexpr double rounding = 1e-12; // modes along one line have one eigenvalue, the other is 0
-      const double other = std::abs(value[1 - k] * scale(high));
-      if (at.real() > rounding * other && (!least || 1.0 / at.real() < least->depth))
+      constexpr double rounding = 1e-12; // modes along one line have one eigenvalue, the others are 0
+      double largest = 0.0;
+      for (const Complex& other : value) largest = std::max(largest, std::abs(other * scale(high)));
+      if (at.real() > rounding * largest && (!least || 1.0 / at.real() < least->depth))
         least = ZeroOrderLimit{1.0 / at.real(), high};
     }
     before = omega;
@@ -107,18 +114,61 @@ std::optional<ZeroOrderLimit> zero_order_limit(const MillingCut& cut, std::span<
   return least;
 }
 
-std::optional<ZeroOrderLimit> zero_order_minimum(const MillingCut& cut, std::span<const Mode> modes,
-                                                 double spindle) {
+/// 1/(2 max Re λ) with this mean per depth.
+std::optional<ZeroOrderLimit> minimum_of(std::span<const Mode> modes, const DirectionalFactors& mean) {
   std::optional<ZeroOrderLimit> least;
-  if (modes.empty()) return least;
-  const ComplexFactors mean = mean_factors(cut, spindle).cast<Complex>();
-  scan([&](double) -> const ComplexFactors& { return mean; }, modes, infinite,
-       [&](double omega, const EigenvaluePair& value) {
+  scan([&](double) -> ComplexFactors { return mean.cast<Complex>(); }, modes, infinite,
+       [&](double omega, const Eigenvalues& value) {
          for (const Complex& lambda : value)
            if (lambda.real() > 0.0 && (!least || 0.5 / lambda.real() < least->depth))
              least = ZeroOrderLimit{0.5 / lambda.real(), omega};
        });
   return least;
+}
+
+/// Edges at one radius have the same mean per depth at any. Of others the first depth that is no less than
+/// the limit with its own mean, at(depth).
+template<class At> std::optional<ZeroOrderLimit> first_limit(const Cutter& cutter, const At& at) {
+  if (!cutter.rounded()) return at(cutter.radius());
+  constexpr double first = 1e-3, step = 1.25, most = 20.0; // of the radius
+  const double end = std::min(cutter.top(), most * cutter.radius());
+  double low = 0.0;
+  for (double depth = std::min(first * cutter.radius(), end);; depth = std::min(step * depth, end)) {
+    std::optional<ZeroOrderLimit> limit = at(depth);
+    if (limit && limit->depth <= depth) {
+      constexpr double close = 1e-7;
+      for (double high = depth; high - low > close * high;) {
+        const double middle = 0.5 * (low + high);
+        if (const auto there = at(middle); there && there->depth <= middle) {
+          high = middle;
+          limit = there;
+        } else
+          low = middle;
+      }
+      return limit;
+    }
+    if (depth >= end) return std::nullopt;
+    low = depth;
+  }
+}
+
+} // namespace
+
+std::optional<ZeroOrderLimit> zero_order_limit(const MillingCut& cut, std::span<const Mode> modes,
+                                               double spindle) {
+  if (modes.empty()) return std::nullopt;
+  return first_limit(cut.cutter, [&](double depth) {
+    const EngagedEdges edges(cut, depth, spindle);
+    return limit_of(cut, modes, spindle, edges.mean_factors() / depth, edges.mean_damping() / depth);
+  });
+}
+
+std::optional<ZeroOrderLimit> zero_order_minimum(const MillingCut& cut, std::span<const Mode> modes,
+                                                 double spindle) {
+  if (modes.empty()) return std::nullopt;
+  return first_limit(cut.cutter, [&](double depth) {
+    return minimum_of(modes, EngagedEdges(cut, depth, spindle).mean_factors() / depth);
+  });
 }
 
 } // namespace cnem::machining

@@ -15,7 +15,8 @@ struct ZeroOrderLimit {
   double frequency = 0.0; ///< rad/s of the vibration
 };
 
-/// The smallest depth at the margin of stability at this speed, rad/s; none where any depth is stable.
+/// The smallest depth at the margin of stability at this speed, rad/s; none where any depth is stable (of
+/// edges whose radius changes, any up to ten diameters or the end of the edges).
 std::optional<ZeroOrderLimit> zero_order_limit(const MillingCut& cut, std::span<const Mode> modes,
                                                double spindle);
 

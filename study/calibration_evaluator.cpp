@@ -177,6 +177,11 @@ std::string Evaluator::collect_run(const CalibrationTarget& target, std::size_t 
     curve.measured = cropped(experiment.measured, difference.from, difference.to);
     curve.computed = std::move(experiment.computed);
     curve.peak = difference.peak_measured;
+    if (experiment.passed_measured.x.size() > 1) { // at the points of the measured curve, and no others
+      const evaluate::ComparedCurve& passed = experiment.passed_measured;
+      curve.measured.y = evaluate::interpolated(passed.x, passed.y, curve.measured.x);
+      curve.computed = std::move(experiment.passed_computed);
+    }
   }
   return "";
 }

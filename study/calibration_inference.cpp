@@ -20,8 +20,8 @@ constexpr double widest = 0.5;
 /// Of a unit vector, that a constant needs to be named with it.
 constexpr double notable = 0.1;
 
-/// Of how many independent ones so many residuals of curves tell: neighbours on a curve err alike. By the
-/// correlation of neighbours, as for an autoregressive series; two at least of each curve.
+/// Of how many independent ones so many residuals of curves tell: near ones on a curve err alike. N/(1 + 2 Σ
+/// ρ) by their correlations ρ, up to the first that is not positive (Geyer 1992); two at least of each curve.
 double independent_residuals(const Eigen::VectorXd& residual, const std::vector<std::size_t>& lengths) {
   double independent = 0.0;
   Eigen::Index from = 0;
@@ -29,10 +29,13 @@ double independent_residuals(const Eigen::VectorXd& residual, const std::vector<
     const auto n = static_cast<Eigen::Index>(length);
     const Eigen::VectorXd part = residual.segment(from, n);
     const double all = part.squaredNorm();
-    const double neighbours = part.head(n - 1).dot(part.tail(n - 1));
-    const double correlation = all > 0.0 ? std::clamp(neighbours / all, 0.0, 0.999) : 0.0;
-    independent +=
-        std::max(std::min(2.0, double(length)), double(length) * (1.0 - correlation) / (1.0 + correlation));
+    double sum = 0.0;
+    for (Eigen::Index apart = 1; apart < n; ++apart) {
+      const double correlation = part.head(n - apart).dot(part.tail(n - apart)) / all;
+      if (!(correlation > 0.0)) break;
+      sum += correlation;
+    }
+    independent += std::max(std::min(2.0, double(length)), double(length) / (1.0 + 2.0 * sum));
     from += n;
   }
   return independent;

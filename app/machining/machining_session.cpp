@@ -104,12 +104,13 @@ std::unique_ptr<Session> machining_run(const input::Case& input, const RunOption
 
 namespace {
 
-/// Whether any of them moves across the axis of the cutter: a flat end that moves along it cuts the same
-/// chips.
-bool move_across(const std::vector<input::NamedMode>& modes) {
+/// Whether any of them moves across the axis of the cutter: edges at one radius that move along it cut the
+/// same chips.
+bool move_across(const std::vector<input::NamedMode>& modes, const machining::Cutter& cutter) {
   constexpr double still = 1e-6; // directions of a solved part have rounding of some 1e-9
-  return std::any_of(modes.begin(), modes.end(),
-                     [](const machining::Mode& mode) { return mode.direction.head<2>().norm() >= still; });
+  return std::any_of(modes.begin(), modes.end(), [&](const machining::Mode& mode) {
+    return cutter.rounded() || mode.direction.head<2>().norm() >= still;
+  });
 }
 
 } // namespace
@@ -131,7 +132,7 @@ std::vector<input::NamedMode> modes_of(const input::Case& input) {
     for (const input::NamedMode& mode : modes_at_cutter(input, solved)) modes.push_back(mode);
     const bool at_places = input.analysis.type == input::Analysis::Type::stability &&
                            !input.machining->stability.places.empty(); // modes_at_places() asks there
-    if (!at_places && !move_across(modes))
+    if (!at_places && !move_across(modes, input.machining->cut.cutter))
       throw input.error("part.cutter",
                         "found a place where no mode of the part moves across the axis of the cutter, "
                         "expected one away from what is held");
@@ -147,18 +148,20 @@ std::vector<std::vector<input::NamedMode>> modes_at_places(const input::Case& in
   if (places.empty()) return {modes};
   std::vector<std::vector<input::NamedMode>> met;
   for (const double place : places) met.push_back(modes_met(input, place));
-  if (std::none_of(met.begin(), met.end(), move_across))
+  const auto move = [&](const auto& there) { return move_across(there, input.machining->cut.cutter); };
+  if (std::none_of(met.begin(), met.end(), move))
     throw input.error("stability.places",
                       "found places at none of which a mode moves across the axis of the cutter, expected "
                       "others: nothing can chatter there");
   return met;
 }
 
-ModesAtPlaces chattering(const std::vector<std::vector<input::NamedMode>>& modes) {
+ModesAtPlaces chattering(const std::vector<std::vector<input::NamedMode>>& modes,
+                         const machining::Cutter& cutter) {
   ModesAtPlaces all;
   for (const std::vector<input::NamedMode>& there : modes)
-    all.push_back(move_across(there) ? std::vector<machining::Mode>(there.begin(), there.end())
-                                     : std::vector<machining::Mode>{});
+    all.push_back(move_across(there, cutter) ? std::vector<machining::Mode>(there.begin(), there.end())
+                                             : std::vector<machining::Mode>{});
   return all;
 }
 
@@ -170,7 +173,8 @@ double deepest(const input::Case& input, const ModesAtPlaces& modes) {
   for (const std::vector<machining::Mode>& there : modes)
     if (const auto limit = machining::zero_order_minimum(milling.cut, there, milling.speed))
       least = std::min(least, limit->depth);
-  return std::max(least < infinite ? lobes * least : 0.0, beyond * milling.axial_depth);
+  return std::min(milling.cut.cutter.top(),
+                  std::max(least < infinite ? lobes * least : 0.0, beyond * milling.axial_depth));
 }
 
 namespace {
@@ -268,9 +272,10 @@ Checked check_machining(const input::Case& input) {
     return checked;
   }
   const input::StabilityRange& range = milling.stability;
-  add("chart", fmt::format("{} speeds from {} to {}, {} depths to {}", range.speeds,
-                           speed_text(range.speed_from), speed_text(range.speed_to), range.depths,
-                           si_format(deepest(input, chattering(modes_at_places(input, modes))), "m")));
+  add("chart",
+      fmt::format("{} speeds from {} to {}, {} depths to {}", range.speeds, speed_text(range.speed_from),
+                  speed_text(range.speed_to), range.depths,
+                  si_format(deepest(input, chattering(modes_at_places(input, modes), cutter)), "m")));
   checked.numbers.emplace_back("modes", static_cast<double>(modes.size()));
   checked.numbers.emplace_back("points", static_cast<double>(range.speeds * range.depths));
   return checked;

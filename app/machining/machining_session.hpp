@@ -66,7 +66,8 @@ std::vector<std::vector<input::NamedMode>> modes_at_places(const input::Case& in
                                                            const std::vector<input::NamedMode>& modes);
 /// [place] the same without names; none where none moves across the axis: nothing chatters there.
 using ModesAtPlaces = std::vector<std::vector<machining::Mode>>;
-ModesAtPlaces chattering(const std::vector<std::vector<input::NamedMode>>& modes);
+ModesAtPlaces chattering(const std::vector<std::vector<input::NamedMode>>& modes,
+                         const machining::Cutter& cutter);
 /// The depth that charts and searches span, m: by the least limit of zero order of all places.
 double deepest(const input::Case& input, const ModesAtPlaces& modes);
 

@@ -61,7 +61,8 @@ void StabilityRun::judge() {
   // Lobes that flips bound are narrow: steps of a fifth of the least limit, but not without end.
   const double step = std::clamp(lowest ? 0.2 * lowest->depth : most, most / 1000.0, most / 50.0);
   constexpr double further = 4.0;
-  const auto limit = machining::depth_limit(milling.cut, modes, milling.speed, step, further * most);
+  const double deepest = std::max(most, std::min(further * most, milling.cut.cutter.top()));
+  const auto limit = machining::depth_limit(milling.cut, modes, milling.speed, step, deepest);
   const auto zero = machining::zero_order_limit(milling.cut, modes, milling.speed);
   const auto here = machining::multiplier(milling.cut, modes, milling.speed, milling.axial_depth);
   const bool stable = std::abs(here.value) < 1.0;
@@ -79,7 +80,7 @@ void StabilityRun::judge() {
     status_.flags.emplace_back("stability.flip");
     bound = fmt::format("the limit is {}", si_format(limit->depth, "m"));
   } else
-    bound = fmt::format("there is no limit up to {}", si_format(further * most, "m"));
+    bound = fmt::format("there is no limit up to {}", si_format(deepest, "m"));
   const std::string cut =
       fmt::format("{} deep at {}", si_format(milling.axial_depth, "m"), speed_text(milling.speed));
   if (!stable)
@@ -146,7 +147,7 @@ bool StabilityRun::solve() {
   const input::MachiningCase& milling = *input_.machining;
   const input::StabilityRange& range = milling.stability;
   met_ = modes_at_places(input_, modes_);
-  const ModesAtPlaces there = chattering(met_);
+  const ModesAtPlaces there = chattering(met_, milling.cut.cutter);
   const double most = deepest(input_, there);
   double weakest = 0.0; // m, place along the path
   if (!range.places.empty()) {

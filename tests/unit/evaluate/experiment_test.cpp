@@ -179,6 +179,30 @@ TEST(Experiment, few_rows_leave_finite_curves) {
             std::string::npos);
 }
 
+/// A force that jumps is blunted by the low-pass of computed forces, and by the same where it is measured.
+TEST(Experiment, measured_curves_pass_what_computed_ones_do) {
+  results::HistoryTable table = ramp();
+  input::Case input = pressed("force_per_length = \"0 1 1 kN/mm\"\n");
+  std::vector<double>&x = input.report.experiments[0].x, &force = input.report.experiments[0].force;
+  x.clear();
+  force.clear();
+  for (std::size_t k = 0; k < table.rows(); ++k) {
+    const double jump = k < 100 ? 1e5 : 1e6 + 5e4 * std::sin(0.05 * static_cast<double>(k));
+    table.column[2][k] = -jump;
+    if (k < 50 || k > 900) continue; // measured over a part of the stroke
+    x.push_back(table.column[6][k]);
+    force.push_back(jump);
+  }
+  const ExperimentResult result = evaluate_experiments(input, table, nullptr).at(0);
+  ASSERT_GT(result.passed_measured.x.size(), 100U);
+  EXPECT_EQ(result.passed_measured.x, result.passed_computed.x);
+  EXPECT_GE(result.passed_measured.x.front(), 50e-6);
+  EXPECT_LE(result.passed_measured.x.back(), 900e-6);
+  for (std::size_t k = 0; k < result.passed_measured.x.size(); ++k)
+    EXPECT_NEAR(result.passed_measured.y[k], result.passed_computed.y[k], 1e-6 * 1e6) << k;
+  EXPECT_GT(result.difference.rms, 0.02e6) << "beside what is not low-passed";
+}
+
 TEST(Experiment, notes_say_what_cannot_be_compared) {
   const auto note = [](const std::string& points) {
     input::Case input = pressed("force_per_length = \"0 2 1 kN/mm\"\n");

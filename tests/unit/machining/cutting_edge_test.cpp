@@ -3,9 +3,12 @@
 
 #include "core/error.hpp"
 #include "machining/milling_process.hpp"
+#include "machining/stability.hpp"
+#include "machining/zero_order.hpp"
 #include "tests/unit/machining/benchmarks.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
@@ -208,6 +211,47 @@ TEST(CuttingEdge, RefusesWhatIsNoRakeFace) {
   for (Vec3& x : face.points)
     if (x.z() > 2e-3 && x.z() < 2.3e-3 && x.head<2>().norm() > 4.9e-3) x.z() += 0.6e-3;
   refuse(face, "does not rise");
+}
+
+/// Lobes take what a face is like as the time domain does: those of the cutter that it is of. A chord of a
+/// facet that ends within the depth leans by up to 0.4 deg along the profile; the ball begins to cut at a
+/// radius of 1 mm, within a row of its face.
+TEST(CuttingEdge, HasTheLobesOfItsCutter) {
+  using enum Engagement::Side;
+  for (const auto& [corner, side] : {std::pair{0.0, up}, {2e-3, down}, {5e-3, down}}) {
+    MillingCut cut = milling_cut(3, 2e9, 8e8, side, 0.4);
+    cut.cutter = formed(corner);
+    cut.engagement.radial_depth = 4e-3;
+    MillingCut by_face = cut;
+    by_face.cutter = traced(cut.cutter, 6e-3);
+    std::vector<Mode> modes = spindle_modes();
+    modes[0].direction = Vec3(0.8, 0.0, 0.6);
+    const auto limits = [&](const MillingCut& one) {
+      const auto floquet = depth_limit(one, modes, 7000.0 * rpm, 4e-4, 5e-3);
+      const auto zero = zero_order_limit(one, modes, 7000.0 * rpm);
+      EXPECT_TRUE(floquet && zero) << corner;
+      return floquet && zero ? std::array{floquet->depth, zero->depth} : std::array{0.0, 0.0};
+    };
+    const auto given = limits(cut), of_face = limits(by_face);
+    for (const std::size_t k : {0, 1})
+      EXPECT_NEAR(of_face[k] / given[k], 1.0, corner > 2e-3 ? 2e-2 : 2e-3) << corner << ' ' << k;
+  }
+}
+
+/// A corner that is nearly none: limits are those of a flat end.
+TEST(CuttingEdge, LobesOfASmallCornerAreThoseOfAFlatEnd) {
+  MillingCut flat = spindle_cut(0.5);
+  flat.cutter.helix = 0.4;
+  MillingCut bull = flat;
+  bull.cutter.corner = 1e-6;
+  const auto limit = [&](const MillingCut& cut) {
+    return depth_limit(cut, spindle_modes(), 9000.0 * rpm, 2e-4, 5e-3)->depth;
+  };
+  EXPECT_NEAR(limit(bull) / limit(flat), 1.0, 1e-3);
+  const auto zero = zero_order_limit(bull, spindle_modes(), 9000.0 * rpm),
+             of_flat = zero_order_limit(flat, spindle_modes(), 9000.0 * rpm);
+  EXPECT_NEAR(zero->depth / of_flat->depth, 1.0, 1e-3);
+  EXPECT_NEAR(zero->frequency / of_flat->frequency, 1.0, 1e-4);
 }
 
 } // namespace cnem::machining

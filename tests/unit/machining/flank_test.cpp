@@ -1,6 +1,7 @@
 // Flanks that plough against closed forms, and what they make of limits.
 #include "machining/flank.hpp"
 
+#include "machining/engaged_edges.hpp"
 #include "machining/milling_process.hpp"
 #include "machining/stability.hpp"
 #include "machining/zero_order.hpp"
@@ -84,7 +85,8 @@ TEST(Flank, SteadyForcesAreThoseOfTheFeed) {
     const double phi = std::fmod(a.angle, full_turn);
     EXPECT_EQ(a.removed, b.removed);
     if (a.angle < 2.0 * full_turn || phi < 1.7 || phi > 3.0) continue;
-    const double normal = worn.specific_force * cut.flank.pressed(flank_rise(cut, 0, phi)) * 1e-3;
+    const double normal =
+        worn.specific_force * cut.flank.pressed(flank_rise(cut, 0, phi, cut.cutter.radius())) * 1e-3;
     const Vec3 force = on_tool(phi, normal * Vec3(worn.friction, 1.0, 0.0));
     EXPECT_LT((a.force - b.force - force).norm(), 0.005 * force.norm()) << phi;
     EXPECT_NEAR((a.torque - b.torque) / (worn.friction * normal * 6e-3), 1.0, 0.005);
@@ -256,8 +258,9 @@ TEST(Flank, OfAToothThatMissesTheCutDoesNotDamp) {
   cut.cutter.run_out = 100e-6;
   ASSERT_LT(steady_thickness(cut, 1, 1.0), 0.0);
   constexpr double depth = 1e-3, speed = 300.0;
-  EXPECT_FALSE(damping_factors(cut, 0, 1.0, depth, speed).isZero(0.0));
-  EXPECT_TRUE(damping_factors(cut, 1, 1.0, depth, speed).isZero(0.0));
+  const EngagedEdges edges(cut, depth, speed);
+  EXPECT_FALSE(edges.damping(0, 1.0).isZero(0.0));
+  EXPECT_TRUE(edges.damping(1, 1.0).isZero(0.0));
 }
 
 } // namespace

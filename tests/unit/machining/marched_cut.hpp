@@ -13,9 +13,12 @@ namespace cnem::machining {
 /// By what the disturbance grows in a turn, after many of them: a mean over the last turns.
 inline double marched_growth(const MillingCut& cut, const std::vector<Mode>& modes, double spindle,
                              double depth) {
-  constexpr int steps = 16000, slices = 30, settle = 30, turns = 60;
+  constexpr int steps = 16000, settle = 30, turns = 60;
   const double two_pi = 2.0 * std::numbers::pi, dt = two_pi / spindle / steps;
   const Cutter& cutter = cut.cutter;
+  // Of a ball slices are as wide on its arc, which depths end within.
+  const bool ball = cutter.corner > 0.0;
+  const int slices = ball ? 200 : 30;
   // Directional factors of each step and tooth: the same every turn.
   std::vector<std::vector<DirectionalFactors>> factors(steps);
   std::vector<int> delay;
@@ -25,28 +28,37 @@ inline double marched_growth(const MillingCut& cut, const std::vector<Mode>& mod
     for (std::size_t j = 0; j < cutter.teeth(); ++j) {
       DirectionalFactors sum = DirectionalFactors::Zero();
       for (int s = 0; s < slices; ++s) {
-        const double z = (s + 0.5) * depth / slices;
-        double phi =
-            (n + 0.5) * two_pi / steps - cutter.behind(j) - z * std::tan(cutter.helix) / cutter.radius();
+        const double R = cutter.radius(), c = cutter.corner, share = (s + 0.5) / slices;
+        const double arc = ball ? share * std::acos(1.0 - depth / c) : 0.5 * std::numbers::pi;
+        const double z = ball ? c * (1.0 - std::cos(arc)) : share * depth;
+        const double width = (ball ? c * std::acos(1.0 - depth / c) : depth) / slices;
+        double phi = (n + 0.5) * two_pi / steps - cutter.behind(j) - z * std::tan(cutter.helix) / R;
         phi -= two_pi * std::floor(phi / two_pi);
-        if (phi < cut.engagement.entry(cutter) || phi > cut.engagement.exit(cutter)) continue;
-        const Vec3 K = cut.law.at({.thickness = 1e-4, .speed = 1.0}).slope;
+        // The normal of the profile leans by its arc from the axis.
+        const double sine_k = std::sin(arc), cosine_k = ball ? std::cos(arc) : 0.0,
+                     r = ball ? R - c + c * sine_k : R;
         const double sine = std::sin(phi), cosine = std::cos(phi);
-        const Vec3 force(-K[0] * cosine - K[1] * sine, K[0] * sine - K[1] * cosine, -K[2]);
-        sum += depth / slices * force * Eigen::RowVector2d(sine, cosine);
+        // The workpiece begins (up) or ends (down) at the side of the radial depth.
+        const bool up = cut.engagement.side == Engagement::Side::up;
+        const double across = up ? r * cosine : -r * cosine;
+        if (sine < 0.0 || across < R - cut.engagement.radial_depth) continue;
+        const Vec3 K = cut.law.at({.thickness = 1e-4, .speed = 1.0}).slope;
+        const double radial = sine_k * K[1] + cosine_k * K[2], axial = sine_k * K[2] - cosine_k * K[1];
+        const Vec3 force(-K[0] * cosine - radial * sine, K[0] * sine - radial * cosine, -axial);
+        sum += width * force * Eigen::RowVector3d(sine_k * sine, sine_k * cosine, -cosine_k);
       }
       factors[static_cast<std::size_t>(n)].push_back(sum);
     }
   const std::size_t m = modes.size();
   std::vector<double> q(m), before(m);
   for (std::size_t i = 0; i < m; ++i) q[i] = before[i] = 1.0 + 0.3 * static_cast<double>(i);
-  std::vector<Vec2> past(steps, Vec2::Zero());
+  std::vector<Vec3> past(steps, Vec3::Zero());
   double scale = 0.0, first = 0.0, last = 0.0;
   for (int turn = 0; turn < settle + turns; ++turn) {
     double size = 0.0;
     for (int n = 0; n < steps; ++n) {
-      Vec2 u = Vec2::Zero();
-      for (std::size_t i = 0; i < m; ++i) u += q[i] * modes[i].participation().head<2>();
+      Vec3 u = Vec3::Zero();
+      for (std::size_t i = 0; i < m; ++i) u += q[i] * modes[i].participation();
       Vec3 force = Vec3::Zero();
       for (std::size_t j = 0; j < cutter.teeth(); ++j) {
         const DirectionalFactors& w = factors[static_cast<std::size_t>(n)][j];
@@ -71,7 +83,7 @@ inline double marched_growth(const MillingCut& cut, const std::vector<Mode>& mod
       q[i] /= size;
       before[i] /= size;
     }
-    for (Vec2& x : past) x /= size;
+    for (Vec3& x : past) x /= size;
   }
   return std::exp((last - first) / (turns - 20));
 }

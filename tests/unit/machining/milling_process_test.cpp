@@ -1,11 +1,14 @@
 // Cuts in the time domain against closed formulas and independently computed numbers.
 #include "machining/milling_process.hpp"
 
+#include "core/error.hpp"
 #include "machining/stability.hpp"
 #include "tests/unit/machining/benchmarks.hpp"
 
 #include <array>
+#include <cstdlib>
 #include <gtest/gtest.h>
+#include <string>
 
 namespace cnem::machining {
 namespace {
@@ -268,6 +271,43 @@ TEST(Milling, EntersFromBesideTheWorkpiece) {
   EXPECT_GT(process.motion().start() + first * process.feed_of_turn() * 800.0 / full_turn, -6.1e-3);
   EXPECT_LT(process.volume(), whole);
   EXPECT_GT(first, 0.0);
+}
+
+/// A finishing cut whose edge forces push a tool by more than its feed in a step, when they come and go.
+TEST(Milling, StepsThatAreAdvisedAreFineEnough) {
+  MillingCut cut = milling_cut(4, 800e6, 300e6, up, 0.339 / 12.0);
+  LinearLaw law;
+  law.Ktc = 800e6;
+  law.Krc = 300e6;
+  law.Kte = 17.83e3;
+  law.Kre = 38.76e3;
+  cut.law = law;
+  cut.feed = 24.8e-6;
+  ProcessSettings settings{.spindle = 2837.0 * rpm,
+                           .axial_depth = 5.71e-3,
+                           .length = 3.0 * 4.0 * cut.feed,
+                           .pitch = 0.1 * cut.feed,
+                           .layers = 1,
+                           .steps = 360};
+  const std::vector<Mode> modes{{.of = Mode::Of::tool,
+                                 .frequency = 1408.0,
+                                 .damping = 0.0255,
+                                 .stiffness = 3.12e6,
+                                 .direction = Vec3::UnitY()}};
+  const auto advised = [&] {
+    try {
+      for (MillingProcess process(cut, modes, settings); !process.at_end();) process.advance();
+    } catch (const DivergenceError& error) {
+      const std::string text = error.what(), key = "dexels.steps = ";
+      EXPECT_NE(text.find(key), std::string::npos) << text;
+      return std::atoi(text.c_str() + text.find(key) + key.size());
+    }
+    return 0;
+  };
+  settings.steps = advised();
+  EXPECT_GT(settings.steps, 360);
+  EXPECT_LT(settings.steps, 4000);
+  EXPECT_EQ(advised(), 0);
 }
 
 } // namespace

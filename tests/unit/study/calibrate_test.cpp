@@ -3,6 +3,7 @@
 #include "tests/unit/study/calibrate_fixture.hpp"
 
 #include <algorithm>
+#include <random>
 
 namespace cnem::study {
 namespace {
@@ -262,6 +263,23 @@ TEST(CalibrationInference, quantiles_are_those_of_tables) {
     EXPECT_NEAR(student_quantile(degrees), quantile, 1e-4) << degrees;
   EXPECT_NEAR(student_quantile(1.5), 6.02, 0.01);
   EXPECT_TRUE(std::isfinite(student_quantile(1e-3)));
+}
+
+/// White noise counts as it is; through a Gaussian as wide as the points are apart 1/(1 + 2 Σ exp(−k²/4)) of
+/// it.
+TEST(CalibrationInference, residuals_count_by_their_correlations) {
+  constexpr int count = 4000, reach = 6;
+  std::mt19937 generator(3);
+  std::normal_distribution<double> normal;
+  Eigen::VectorXd noise(count + 2 * reach), passed = Eigen::VectorXd::Zero(count);
+  for (double& one : noise) one = normal(generator);
+  for (int k = 0; k < count; ++k)
+    for (int j = -reach; j <= reach; ++j) passed[k] += noise[k + reach + j] * std::exp(-0.5 * j * j);
+  const auto independent = [&](const Eigen::VectorXd& residual) {
+    return infer(two_lines(), residual, Eigen::MatrixXd::Random(count, 3), {std::size_t(count)}).independent;
+  };
+  EXPECT_NEAR(independent(noise.head(count)) / count, 1.0, 0.1);
+  EXPECT_NEAR(independent(passed) / count, 1.0 / 3.545, 0.05);
 }
 
 TEST(CalibrationInference, without_residuals_to_spare_there_are_no_intervals) {
