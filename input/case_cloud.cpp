@@ -197,6 +197,21 @@ void check_window(const Setting& setting, const std::array<Vec2, 2>& corners, co
             show(corners[0]), show(corners[1]), show(low), show(high)));
 }
 
+/// Random offsets: a study over seeds of a cloud that has none would compare a run with itself.
+void read_offsets(Setting& table, CloudSpec& cloud, Diagnostics& diagnostics) {
+  cloud.jitter = table.get<double>("jitter");
+  cloud.seed = static_cast<std::uint64_t>(table.get<std::int64_t>("seed"));
+  if (cloud.pattern == clouds::Pattern::jittered) return;
+  for (const char* const name : {"jitter", "seed"}) {
+    if (const Setting& setting = *table.find(name); setting.given)
+      diagnostics.add(Mistake::conflict, setting.where, setting.path,
+                      fmt::format("has no effect with pattern = \"{}\", whose nodes have no random offsets, "
+                                  "expected it with \"jittered\"",
+                                  table.get<std::string>("pattern")));
+    table.erase(name);
+  }
+}
+
 } // namespace
 
 std::array<Vec2, 2> read_box(const Setting& setting, Diagnostics& diagnostics) {
@@ -221,8 +236,7 @@ void read_cloud(Setting& root, Case& result, Diagnostics& diagnostics) {
   if (result.analysis.dimensions() == 3)
     return result.domain.in_space() ? read_space_cloud(table, result, diagnostics) : void();
   cloud.pattern = table.choice<clouds::Pattern>("pattern");
-  cloud.jitter = table.get<double>("jitter");
-  cloud.seed = static_cast<std::uint64_t>(table.get<std::int64_t>("seed"));
+  read_offsets(table, cloud, diagnostics);
   cloud.spacing = table.maybe<double>("spacing").value_or(0.0);
   const bool list = cloud.pattern == clouds::Pattern::list;
   if (!list && !table.find("spacing"))
