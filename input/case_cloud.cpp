@@ -197,19 +197,23 @@ void check_window(const Setting& setting, const std::array<Vec2, 2>& corners, co
             show(corners[0]), show(corners[1]), show(low), show(high)));
 }
 
-/// Random offsets: a study over seeds of a cloud that has none would compare a run with itself.
+/// Random offsets: a study over seeds of a cloud that has none would compare a run with itself. Resolved
+/// cases of earlier versions hold the defaults whatever the pattern.
 void read_offsets(Setting& table, CloudSpec& cloud, Diagnostics& diagnostics) {
+  const CloudSpec rest = cloud;
   cloud.jitter = table.get<double>("jitter");
   cloud.seed = static_cast<std::uint64_t>(table.get<std::int64_t>("seed"));
   if (cloud.pattern == clouds::Pattern::jittered) return;
-  for (const char* const name : {"jitter", "seed"}) {
-    if (const Setting& setting = *table.find(name); setting.given)
+  const auto refuse = [&](const char* name, bool changed) {
+    if (const Setting& setting = *table.find(name); setting.given && changed)
       diagnostics.add(Mistake::conflict, setting.where, setting.path,
                       fmt::format("has no effect with pattern = \"{}\", whose nodes have no random offsets, "
                                   "expected it with \"jittered\"",
                                   table.get<std::string>("pattern")));
     table.erase(name);
-  }
+  };
+  refuse("jitter", cloud.jitter != rest.jitter);
+  refuse("seed", cloud.seed != rest.seed);
 }
 
 } // namespace

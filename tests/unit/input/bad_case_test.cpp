@@ -245,6 +245,7 @@ TEST(BadCase, Clouds) {
   expect_parts(with("spacing = \"1 mm\"\npattern = \"regular\"\nseed = 2"),
                {"with pattern = \"regular\"", "expected it with \"jittered\""});
   EXPECT_EQ(with("spacing = \"1 mm\"\npattern = \"jittered\"\njitter = 0.1\nseed = 2"), "accepted");
+  EXPECT_EQ(with("spacing = \"1 mm\"\njitter = 0.2\nseed = 1"), "accepted") << "resolved cases held them";
   expect_parts(with("seed = 1"), {"case.toml:8:2: key 'cloud.spacing': missing, expected a length"});
   expect_parts(with("pattern = \"list\""), {"found none of nodes and nodes_file"});
   expect_parts(with("spacing = \"1 mm\"\nnodes = []"), {"goes with pattern = \"list\""});
