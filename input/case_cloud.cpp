@@ -197,6 +197,25 @@ void check_window(const Setting& setting, const std::array<Vec2, 2>& corners, co
             show(corners[0]), show(corners[1]), show(low), show(high)));
 }
 
+/// Random offsets: a study over seeds of a cloud that has none would compare a run with itself. Resolved
+/// cases of earlier versions hold the defaults whatever the pattern.
+void read_offsets(Setting& table, CloudSpec& cloud, Diagnostics& diagnostics) {
+  const CloudSpec rest = cloud;
+  cloud.jitter = table.get<double>("jitter");
+  cloud.seed = static_cast<std::uint64_t>(table.get<std::int64_t>("seed"));
+  if (cloud.pattern == clouds::Pattern::jittered) return;
+  const auto refuse = [&](const char* name, bool changed) {
+    if (const Setting& setting = *table.find(name); setting.given && changed)
+      diagnostics.add(Mistake::conflict, setting.where, setting.path,
+                      fmt::format("has no effect with pattern = \"{}\", whose nodes have no random offsets, "
+                                  "expected it with \"jittered\"",
+                                  table.get<std::string>("pattern")));
+    table.erase(name);
+  };
+  refuse("jitter", cloud.jitter != rest.jitter);
+  refuse("seed", cloud.seed != rest.seed);
+}
+
 } // namespace
 
 std::array<Vec2, 2> read_box(const Setting& setting, Diagnostics& diagnostics) {
@@ -221,8 +240,7 @@ void read_cloud(Setting& root, Case& result, Diagnostics& diagnostics) {
   if (result.analysis.dimensions() == 3)
     return result.domain.in_space() ? read_space_cloud(table, result, diagnostics) : void();
   cloud.pattern = table.choice<clouds::Pattern>("pattern");
-  cloud.jitter = table.get<double>("jitter");
-  cloud.seed = static_cast<std::uint64_t>(table.get<std::int64_t>("seed"));
+  read_offsets(table, cloud, diagnostics);
   cloud.spacing = table.maybe<double>("spacing").value_or(0.0);
   const bool list = cloud.pattern == clouds::Pattern::list;
   if (!list && !table.find("spacing"))

@@ -27,9 +27,9 @@ template<int dim> struct FieldInfo {
   std::string name; ///< "plastic_strain", as in case files and history columns
   std::string unit; ///< SI unit, "" when dimensionless
   Shown shown;
-  bool at_nodes = false;  ///< lives at nodes (else at stress points)
-  bool adaptive = false;  ///< only where the cloud is adapted
-  bool of_damage = false; ///< zero unless a material has a damage law: then left out of files
+  bool at_nodes = false; ///< lives at nodes (else at stress points)
+  bool adaptive = false; ///< only where the cloud is adapted
+  bool switched = false; ///< of a group that may be off: then zero, and left out of files
   std::function<double(const FieldSource<dim>&, std::size_t)> at; ///< value at a stress point or node
   ArrayPart part{};
   /// The values themselves where the state keeps them; empty for a field that is calculated.

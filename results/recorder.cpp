@@ -303,8 +303,8 @@ template<int dim> void FieldRecorder::record(FileQueue& files, const Snapshot<di
   }
   frame.origin = input_->origin;
   for (const FieldInfo<dim>& info : field_catalogue<dim>()) {
-    if (info.of_damage && shot.state.point.damage.empty()) continue;
     if (info.adaptive && !shot.adaptation) continue;
+    if (info.switched && info.kept({shot.state, shot.adaptation})->empty()) continue;
     const Field& at_points = kept->values.emplace_back(values_at_points(shot, info.name));
     if (!kept->cells.between_points) add_field(info, at_points, frame.cell_scalars, frame.cell_vectors);
     const Field& at_nodes = shot.approximation.mechanics.nodal

@@ -274,10 +274,12 @@ void add_cloud(Keys& k) {
       .unit(d::length)
       .in(positive)
       .example("\"0.2 mm\"");
-  k.add("cloud.jitter", quantity, "Largest random offset over the spacing (pattern `jittered`).")
+  k.add("cloud.jitter", quantity, "Pattern `jittered`: largest random offset over the spacing.")
       .in({.low = 0.0, .high = 0.4})
       .fallback("0.2");
-  k.add("cloud.seed", integer, "Seed of the random offsets.").in({.low = 0, .high = 9e15}).fallback("1");
+  k.add("cloud.seed", integer, "Pattern `jittered`: seed of the random offsets.")
+      .in({.low = 0, .high = 9e15})
+      .fallback("1");
   k.add("cloud.nodes", vectors,
         "Pattern `list`: every node once, interior and boundary, with all corners of the domain among them.")
       .unit(d::length)

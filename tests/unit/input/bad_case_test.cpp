@@ -239,6 +239,13 @@ TEST(BadCase, Clouds) {
   const auto with = [](const std::string& cloud) {
     return refusal_of(replaced(small_case, "spacing = \"0.25 mm\"", cloud));
   };
+  const std::string no_offsets = "has no effect with pattern = \"hexagonal\", whose nodes have no random";
+  expect_parts(with("spacing = \"1 mm\"\nseed = 2"), {"case.toml:10:1: key 'cloud.seed': " + no_offsets});
+  expect_parts(with("spacing = \"1 mm\"\njitter = 0.1"), {"key 'cloud.jitter': " + no_offsets});
+  expect_parts(with("spacing = \"1 mm\"\npattern = \"regular\"\nseed = 2"),
+               {"with pattern = \"regular\"", "expected it with \"jittered\""});
+  EXPECT_EQ(with("spacing = \"1 mm\"\npattern = \"jittered\"\njitter = 0.1\nseed = 2"), "accepted");
+  EXPECT_EQ(with("spacing = \"1 mm\"\njitter = 0.2\nseed = 1"), "accepted") << "resolved cases held them";
   expect_parts(with("seed = 1"), {"case.toml:8:2: key 'cloud.spacing': missing, expected a length"});
   expect_parts(with("pattern = \"list\""), {"found none of nodes and nodes_file"});
   expect_parts(with("spacing = \"1 mm\"\nnodes = []"), {"goes with pattern = \"list\""});
