@@ -15,18 +15,11 @@ namespace {
 constexpr double quarter_turn = 0.5 * std::numbers::pi;
 
 /// Heights between which edges are taken for cones, from the tip upwards.
-std::vector<double> ends_of_slices(const MillingCut& cut, double depth) {
-  const Cutter& cutter = cut.cutter;
+std::vector<double> ends_of_cones(const Cutter& cutter, double depth) {
   std::vector<double> ends{0.0};
   if (cutter.corner > 0.0) {
     constexpr int arcs = 24;
     for (int k = 1; k <= arcs; ++k) ends.push_back(cutter.corner * (1.0 - std::cos(quarter_turn * k / arcs)));
-    // Below the radius that comes to the workpiece nothing is cut.
-    const double comes = std::abs(cutter.radius() - cut.engagement.radial_depth);
-    if (const double sine = 1.0 - (cutter.radius() - comes) / cutter.corner; sine > 0.0) {
-      const double z = cutter.corner * (1.0 - std::sqrt(1.0 - sine * sine));
-      ends.insert(std::upper_bound(ends.begin(), ends.end(), z), z);
-    }
     while (ends.size() > 1 && ends.back() >= depth) ends.pop_back();
     ends.push_back(depth);
   } else if (cutter.edge) {
@@ -53,6 +46,36 @@ std::vector<double> ends_of_slices(const MillingCut& cut, double depth) {
     if (top > ends.back()) ends.push_back(top);
   } else
     ends.push_back(depth);
+  return ends;
+}
+
+/// The same with slices along which the part of the turn that is in the cut changes by 0.1 rad at most. Where
+/// the edge comes to the workpiece, or leaves its other side, it does so as the root of the height.
+std::vector<double> ends_of_slices(const MillingCut& cut, double depth) {
+  constexpr double most = 0.1; // rad
+  const std::vector<double> cones = ends_of_cones(cut.cutter, depth);
+  const auto turn = [&](double z) {
+    const double radius = cut.cutter.radius_at(z);
+    return cut.engagement.exit(cut.cutter, radius) - cut.engagement.entry(cut.cutter, radius);
+  };
+  std::vector<double> ends{cones.front()};
+  for (std::size_t k = 1; k < cones.size(); ++k) {
+    const double high = cones[k], first = turn(ends.back()), change = std::abs(turn(high) - first);
+    if (change > most) {
+      double from = ends.back(), to = high;
+      for (int halving = 0; halving < 50; ++halving) {
+        const double middle = 0.5 * (from + to);
+        (turn(middle) == first ? from : to) = middle;
+      }
+      if (from > ends.back()) ends.push_back(from);
+      const int pieces = static_cast<int>(std::ceil(change / most));
+      for (int i = 1; i < pieces; ++i) {
+        const double share = static_cast<double>(i) / pieces;
+        ends.push_back(from + (high - from) * share * share);
+      }
+    }
+    ends.push_back(high);
+  }
   return ends;
 }
 

@@ -234,7 +234,7 @@ TEST(CuttingEdge, HasTheLobesOfItsCutter) {
     };
     const auto given = limits(cut), of_face = limits(by_face);
     for (const std::size_t k : {0, 1})
-      EXPECT_NEAR(of_face[k] / given[k], 1.0, corner > 2e-3 ? 2e-2 : 2e-3) << corner << ' ' << k;
+      EXPECT_NEAR(of_face[k] / given[k], 1.0, 2e-3) << corner << ' ' << k;
   }
 }
 
