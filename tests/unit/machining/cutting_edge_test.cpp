@@ -233,8 +233,7 @@ TEST(CuttingEdge, HasTheLobesOfItsCutter) {
       return floquet && zero ? std::array{floquet->depth, zero->depth} : std::array{0.0, 0.0};
     };
     const auto given = limits(cut), of_face = limits(by_face);
-    for (const std::size_t k : {0, 1})
-      EXPECT_NEAR(of_face[k] / given[k], 1.0, 2e-3) << corner << ' ' << k;
+    for (const std::size_t k : {0, 1}) EXPECT_NEAR(of_face[k] / given[k], 1.0, 2e-3) << corner << ' ' << k;
   }
 }
 
