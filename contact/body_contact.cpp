@@ -195,21 +195,25 @@ template<int dim>
 void BodyContact<dim>::look(const Surface<dim>& surface, PlacesOnBoundary<dim> start,
                             PlacesOnBoundary<dim> end) {
   if (start.empty()) return;
-  const auto covered = [&](const IndexedVector<BoundaryNodeIndex, Vec<dim>>& from, double skin) {
+  const auto farthest = [&](PlacesOnBoundary<dim> from) { // m, from where nodes were to where they go
     double moved = 0.0;
     for (const BoundaryNodeIndex b : end.indices()) moved = std::max(moved, (end[b] - from[b]).squaredNorm());
-    return 2.0 * std::sqrt(moved) <= skin;
+    return std::sqrt(moved);
   };
-  const bool listed = !listed_.empty() && covered(listed_, skin_);
+  const bool listed = !listed_.empty() && 2.0 * farthest(listed_) <= skin_;
   if (!listed) {
     listed_.assign(start.begin(), start.end());
     list(surface);
   }
-  if constexpr (dim == 3)
-    if (!listed || !covered(narrowed_, narrow_)) {
+  if constexpr (dim == 3) {
+    // contacts move nodes no farther than the step has
+    const double way = farthest(start);
+    if (!listed || 2.0 * (farthest(narrowed_) + way) > narrow_) {
       narrowed_.assign(start.begin(), start.end());
       narrow(surface);
     }
+    wide_ = 4.0 * way > narrow_;
+  }
 }
 
 template<>
@@ -265,7 +269,9 @@ template<int dim> void BodyContact<dim>::archive(Archive& archive, const Surface
   };
   carry("solver/body_contact/listed", listed_);
   if constexpr (dim == 3) carry("solver/body_contact/narrowed", narrowed_);
-  if (!archive.loading() || listed_.empty()) return;
+  if (!archive.loading()) return;
+  if (dim == 3 && narrowed_.empty()) listed_.clear();
+  if (listed_.empty()) return;
   list(surface);
   if constexpr (dim == 3) narrow(surface);
 }

@@ -101,7 +101,7 @@ private:
   void list_edges(const Surface<dim>& surface, const BoxTree& facets,
                   std::span<const Vec3> shifts); // in space
   /// Of the pairs of edges those that are nearer than a fraction of the skin, until nodes have moved by half
-  /// of that: of a flat surface edges are listed that never meet.
+  /// of that less the way of a step: of a flat surface edges are listed that never meet.
   void narrow(const Surface<dim>& surface); // in space
   bool same(BoundaryNodeIndex one, BoundaryNodeIndex other, const Vec<dim>& shift) const;
   bool related(const Surface<dim>& surface, BoundaryNodeIndex node, FacetIndex facet,
@@ -118,6 +118,7 @@ private:
   IndexedVector<BoundaryNodeIndex, Vec<dim>> narrowed_; ///< 3D: m, at which near_edges_ were chosen
   std::vector<EdgePair> near_edges_;                    ///< 3D: of edge_pairs_, in their order
   double skin_ = 0.0, narrow_ = 0.0;                    ///< m
+  bool wide_ = false; ///< 3D: the step goes so far that all edge_pairs_ are looked at
   double size_ = 0.0;
   int listings_ = 0;
 };

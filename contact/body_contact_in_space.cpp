@@ -356,7 +356,7 @@ void BodyContact<3>::find(const Surface<3>& surface, PlacesOnBoundary<3> start, 
 template<>
 void BodyContact<3>::find_edges(const Surface<3>& surface, PlacesOnBoundary<3> start, PlacesOnBoundary<3> end,
                                 std::vector<EdgeHit>& hits) const {
-  for (const EdgePair& pair : near_edges_) {
+  for (const EdgePair& pair : wide_ ? edge_pairs_ : near_edges_) {
     const auto now = crossing(surface, side_, pair, end);
     if (!now) continue;
     const double kept = clearance * now->length, gap = now->gap - kept;
