@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace cnem::adapt {
 namespace {
@@ -150,16 +151,40 @@ private:
   void clear_seams() {
     if (groups_.empty()) return;
     constexpr int rounds = 12;
-    for (int n = 0; n < rounds; ++n) {
+    for (int n = 0;; ++n) {
       std::vector<Pair> pairs = voronoi::crossings(cloud_);
       std::erase_if(pairs, [&](const Pair& pair) { return on_seam(pair[0]) == on_seam(pair[1]); });
       if (pairs.empty()) return;
+      if (n == rounds) return set_back(pairs);
       IndexedVector<NodeIndex, Vec3> way(cloud_.position.size(), Vec3::Zero());
       const voronoi::Winding winding(cloud_);
       for (const Pair& pair : pairs) leave_face(pair, were_back_to_back(pair, winding), way);
-      if (!move_alike(way)) break;
+      if (!move_alike(way)) return set_back(pairs);
     }
-    cloud_.position = before_; // it is the border of the seam that is folded
+  }
+
+  /// Where a seam has not come off a face it is its border that is folded: it stays as it was, with all that
+  /// has moved beside it and images of that.
+  void set_back(const std::vector<Pair>& pairs) {
+    IndexedVector<NodeIndex, char> back(cloud_.position.size(), 0);
+    bool more = false;
+    const auto join = [&](const auto& nodes) {
+      for (const NodeIndex i : nodes)
+        if (!back[i] && cloud_.position[i] != before_[i]) {
+          back[i] = 1;
+          more = true;
+        }
+    };
+    const auto join_all_of = [&](const auto& nodes) {
+      if (std::any_of(nodes.begin(), nodes.end(), [&](NodeIndex i) { return back[i] != 0; })) join(nodes);
+    };
+    for (const Pair& pair : pairs) join(cloud_.facets[on_seam(pair[0]) ? pair[0] : pair[1]].node);
+    while (std::exchange(more, false)) {
+      for (const std::vector<NodeIndex>& group : groups_) join_all_of(group);
+      for (const auto& facet : cloud_.facets) join_all_of(facet.node);
+    }
+    for (const NodeIndex i : back.indices())
+      if (back[i]) cloud_.position[i] = before_[i];
   }
 
   /// Ways of the nodes within a seam that bring its facet off the other one: those that are nearer to that
@@ -260,20 +285,25 @@ void unfold(Cloud<3>& cloud, const IndexedVector<NodeIndex, char>& held, const F
   Unfolding unfolding(cloud, held, size, images, rules.still);
   report.folded += unfolding.run();
   IndexedVector<NodeIndex, char> owing = unfolding.active();
-  const auto count = [&] { return std::count(owing.begin(), owing.end(), 1); };
-  if (count() == 0) return;
-  const auto owed = [&] { return volume - enclosed_measure(cloud); };
-  const double enough = 0.01 * std::abs(owed());
+  if (std::count(owing.begin(), owing.end(), 1) == 0) return;
+  double owed = volume - enclosed_measure(cloud);
+  const double enough = 0.01 * std::abs(owed);
+  std::size_t crossed = voronoi::crossings(cloud).size();
   constexpr int times = 6;
-  for (int n = 0; n < times && std::abs(owed()) > enough; ++n) {
+  for (int n = 0; n < times && std::abs(owed) > enough; ++n) {
+    const double each = owed / static_cast<double>(std::count(owing.begin(), owing.end(), 1));
     Field debt(cloud.position.size(), 0.0);
     for (const NodeIndex i : owing.indices())
-      if (owing[i]) debt[index_of(i)] = owed() / static_cast<double>(count());
+      if (owing[i]) debt[index_of(i)] = each;
     WorkingSurface surface(cloud, held, rules);
     give_back(surface, std::move(debt), size, SurfaceThresholds{}.give_back);
     Cloud<3> swollen = cloud;
     for (const NodeIndex i : cloud.position.indices()) swollen.position[i] = surface.at(i);
-    if (voronoi::crossings(swollen).size() <= voronoi::crossings(cloud).size()) cloud = std::move(swollen);
+    if (const std::size_t then = voronoi::crossings(swollen).size(); then <= crossed) {
+      cloud = std::move(swollen);
+      crossed = then;
+      owed = volume - enclosed_measure(cloud);
+    }
     owing = with_neighbours(cloud, owing);
   }
 }

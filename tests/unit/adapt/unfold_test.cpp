@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace cnem::adapt {
 namespace {
 
@@ -76,6 +78,35 @@ TEST(Unfold, a_seam_goes_back_under_a_face_that_keeps_its_nodes) {
   EXPECT_EQ(body.report.folded, 6);
 }
 
+// Nodes of the border do not go with the seam: where they have come through the skin it stays crossed until
+// faces are unfolded, and elsewhere it goes all the same.
+TEST(Unfold, a_seam_goes_though_its_border_is_folded_elsewhere) {
+  Folded body(testing::SpaceShape::cube);
+  body.periods = {{testing::piece_of(body.cloud, "x-"), testing::piece_of(body.cloud, "x+")}};
+  repeat_facets(body.cloud, body.periods);
+  std::vector<NodeIndex> within, border;
+  for (const NodeIndex i : body.cloud.position.indices()) {
+    const Vec3& x = body.cloud.position[i];
+    if ((x.x() > 1e-9 && x.x() < 1.0 - 1e-9) || std::abs(x.z() - (1.0 - h)) > 1e-9) continue;
+    if (std::abs(x.y() - 4.0 * h) < 1e-9) within.push_back(i);
+    if (x.y() < 1e-9) border.push_back(i);
+  }
+  ASSERT_EQ(within.size(), 2); // one and its image
+  ASSERT_EQ(border.size(), 2);
+  body.fold([&](const Vec3& x) {
+    const NodeIndex i = as<NodeIndex>(&x - &*body.cloud.position.begin());
+    if (std::find(within.begin(), within.end(), i) != within.end()) return Vec3(x + h * Vec3(0.6, 0.0, 1.05));
+    if (std::find(border.begin(), border.end(), i) != border.end()) return Vec3(x + h * Vec3(0.4, 0.3, 1.05));
+    return x;
+  });
+  body.unfold();
+  for (const NodeIndex i : within) {
+    EXPECT_LT((body.way(i) - body.way(within.front())).norm(), 1e-15);
+    EXPECT_LT(body.cloud.position[i].z(), 1.0 - 0.19 * h); // smoothing alone ends nearer to the skin
+  }
+  for (const NodeIndex i : border) { EXPECT_LT(body.way(i).norm(), 0.5 * h * (1.0 + 1e-12)); }
+}
+
 // One side of a thin wall is dented until it comes out of the other: matter has been between, above both
 // sides the surface is inside out. To push each away from the other, as walls of a gap, is the wrong way, and
 // what smooths them then takes away most of the body.
@@ -92,7 +123,8 @@ TEST(Unfold, sides_of_a_wall_go_back_through_each_other) {
   EXPECT_LT(enclosed_measure(body.cloud), 1.1 * volume);
 }
 
-// The walls of a notch have bulged into each other: they part, and what that takes is given back.
+// The walls of a notch have bulged into each other: they part, and what that takes, 1.6% of the volume, is
+// given back but for a hundredth.
 TEST(Unfold, walls_of_a_notch_part) {
   Folded body(testing::SpaceShape::notch);
   body.fold([](const Vec3& x) {
@@ -104,7 +136,7 @@ TEST(Unfold, walls_of_a_notch_part) {
   });
   const double volume = enclosed_measure(body.cloud);
   body.unfold();
-  EXPECT_NEAR(enclosed_measure(body.cloud), volume, 1e-3 * volume);
+  EXPECT_NEAR(enclosed_measure(body.cloud), volume, 2e-4 * volume);
 }
 
 } // namespace
