@@ -49,10 +49,11 @@ std::vector<double> ends_of_cones(const Cutter& cutter, double depth) {
   return ends;
 }
 
-/// The same with slices along which the part of the turn that is in the cut changes by 0.1 rad at most. Where
-/// the edge comes to the workpiece, or leaves its other side, it does so as the root of the height.
+/// The same with slices along which the part of the turn that is in the cut changes by 0.1 rad at most, by
+/// equal changes. Where the edge comes to the workpiece, or leaves its other side, it does so as the root of
+/// the height: slices end there.
 std::vector<double> ends_of_slices(const MillingCut& cut, double depth) {
-  constexpr double most = 0.1; // rad
+  constexpr double most = 0.1, sliver = 1e-9; // rad; of a cone
   const std::vector<double> cones = ends_of_cones(cut.cutter, depth);
   const auto turn = [&](double z) {
     const double radius = cut.cutter.radius_at(z);
@@ -60,19 +61,18 @@ std::vector<double> ends_of_slices(const MillingCut& cut, double depth) {
   };
   std::vector<double> ends{cones.front()};
   for (std::size_t k = 1; k < cones.size(); ++k) {
-    const double high = cones[k], first = turn(ends.back()), change = std::abs(turn(high) - first);
-    if (change > most) {
-      double from = ends.back(), to = high;
+    const double low = cones[k - 1], high = cones[k], first = turn(low), change = turn(high) - first;
+    const int pieces = static_cast<int>(std::ceil(std::abs(change) / most));
+    // The first and the last end are where the turn begins to change and where it has done so.
+    for (int i = 0; pieces > 1 && i <= pieces; ++i) {
+      double from = low, to = high;
       for (int halving = 0; halving < 50; ++halving) {
-        const double middle = 0.5 * (from + to);
-        (turn(middle) == first ? from : to) = middle;
+        const double middle = 0.5 * (from + to), gone = (turn(middle) - first) / change;
+        const bool past = i == 0 ? gone > 0.0 : gone >= static_cast<double>(i) / pieces;
+        (past ? to : from) = middle;
       }
-      if (from > ends.back()) ends.push_back(from);
-      const int pieces = static_cast<int>(std::ceil(change / most));
-      for (int i = 1; i < pieces; ++i) {
-        const double share = static_cast<double>(i) / pieces;
-        ends.push_back(from + (high - from) * share * share);
-      }
+      const double end = i == 0 ? from : to, least = sliver * (high - low);
+      if (end > ends.back() + least && end < high - least) ends.push_back(end);
     }
     ends.push_back(high);
   }
@@ -218,7 +218,9 @@ DirectionalFactors EngagedEdges::damping_at(const EdgeSlice& slice, std::size_t 
   if (!(steady_thickness(cut_, tooth, phi) > 0.0)) return DirectionalFactors::Zero();
   const double damping = cut_.flank.about(slice.radius)
                              .damping(flank_rise(cut_, tooth, phi, slice.radius), spindle_ * slice.radius);
-  return slice.answer(phi, damping * Vec3(cut_.flank.friction, 1.0, 0.0));
+  DirectionalFactors answer = slice.answer(phi, damping * Vec3(cut_.flank.friction, 1.0, 0.0));
+  answer.col(2).setZero(); // lands are pressed in across the axis, as FlankTraces has it
+  return answer;
 }
 
 DirectionalFactors EngagedEdges::factors(std::size_t tooth, double tip) const {

@@ -42,7 +42,7 @@ double period_of(const MillingCut& cut) {
 }
 
 std::vector<double> changes_within(const MillingCut& cut, std::size_t tooth, double radius) {
-  const double from = cut.engagement.entry(cut.cutter), to = cut.engagement.exit(cut.cutter);
+  const double from = cut.engagement.entry(cut.cutter, radius), to = cut.engagement.exit(cut.cutter, radius);
   std::vector<double> changes;
   const auto where_sine_is = [&](double sine) {
     if (!(std::abs(sine) < 1.0)) return;

@@ -313,7 +313,8 @@ ProcessStep MillingProcess::make_step() {
   constexpr int enough = 5, most = 30;
   constexpr double close = 1e-12; // m
   const double touch = 1e-6 * cut_.feed;
-  const double rubs = std::clamp(rubbing(touch), 1e-4 * cut_.feed, 1e-2 * cut_.feed);
+  const double rubbed = rubbing(touch), least = 1e-4 * cut_.feed, greatest = 1e-2 * cut_.feed;
+  const double rubs = std::clamp(rubbed, least, greatest);
   double unsettled = 0.0;
   for (int iteration = 0; !modes_.empty() || part_; ++iteration) {
     bear(shift, force_, [&](std::size_t k, const Sweep& sweep) { return layer_[k].ask(sweep); });
@@ -334,12 +335,14 @@ ProcessStep MillingProcess::make_step() {
       break;
     }
     if (iteration >= most && part_) part_->check(); // what folds need not agree with anything
-    if (iteration >= most) // an impulse of a force that comes or goes moves a mode by the square of the step
+    // An impulse of a force that comes or goes moves a mode by the square of the step, and `rubbed` falls
+    // with it: smaller steps meet but a bound of `rubs`.
+    if (iteration >= most)
       throw DivergenceError(
           fmt::format("forces and vibration of a step do not agree: the shift of the cutter still changes by "
                       "{:.3g} m, where {:.3g} m is little; expected smaller steps, dexels.steps = {:.0f} or "
                       "more",
-                      change, rubs, finer(std::sqrt(change / rubs))),
+                      change, rubs, finer(std::sqrt(change / (change < rubbed ? greatest : least)))),
           -1, "displacement");
   }
   if (part_) part_->check();

@@ -19,7 +19,7 @@ namespace cnem::machining {
 /// mode.
 class Monodromy {
 public:
-  /// Multipliers are found to about 1e-7.
+  /// Multipliers are found to about 1e-7 for a linear law and edges at one radius.
   Monodromy(const MillingCut& cut, std::span<const Mode> modes, double spindle, double depth);
 
   /// Unknowns: (q, v/ω) of all modes, then displacements at the nodes of the last period; velocities beside

@@ -21,7 +21,7 @@ constexpr double widest = 0.5;
 constexpr double notable = 0.1;
 
 /// Of how many independent ones so many residuals of curves tell: near ones on a curve err alike. N/(1 + 2 Σ
-/// ρ) by their correlations ρ, up to the first that is not positive (Geyer 1992); two at least of each curve.
+/// ρ) by their correlations ρ up to the first that is not positive (Geyer 1992: pair); two at least of each.
 double independent_residuals(const Eigen::VectorXd& residual, const std::vector<std::size_t>& lengths) {
   double independent = 0.0;
   Eigen::Index from = 0;

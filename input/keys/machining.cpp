@@ -57,7 +57,7 @@ void add_cutter(Keys& k) {
       .unit(d::angle)
       .in(steep)
       .example("\"10 deg\"");
-  k.add("cutter.end", choice, "In the time domain: how the cutter ends; a bull end has a `corner` radius.")
+  k.add("cutter.end", choice, "How the cutter ends; a bull end has a `corner` radius.")
       .one_of({"flat", "bull", "ball"})
       .fallback("\"flat\"");
   k.add("cutter.corner", quantity, "Radius between end and side of a bull end.")
@@ -66,7 +66,7 @@ void add_cutter(Keys& k) {
       .example("\"2 mm\"");
   k.add(
       "cutter.rake_face", table,
-      "In the time domain, in place of `end`, `corner`, `helix` and `rake`: the rake face of a tooth from an "
+      "In place of `end`, `corner`, `helix` and `rake`: the rake face of a tooth from an "
       "STL file, in axes of the cutter (z up along its axis, 0 at the tip; the tooth as it stands at first, "
       "seen from +z clockwise from +y). The other teeth follow at their `pitch`. The edge is the outer side "
       "of the face; its radius, length and angles are those of the triangles.");

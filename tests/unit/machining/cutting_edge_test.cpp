@@ -2,6 +2,7 @@
 #include "machining/cutting_edge.hpp"
 
 #include "core/error.hpp"
+#include "machining/engaged_edges.hpp"
 #include "machining/milling_process.hpp"
 #include "machining/stability.hpp"
 #include "machining/zero_order.hpp"
@@ -251,6 +252,73 @@ TEST(CuttingEdge, LobesOfASmallCornerAreThoseOfAFlatEnd) {
              of_flat = zero_order_limit(flat, spindle_modes(), 9000.0 * rpm);
   EXPECT_NEAR(zero->depth / of_flat->depth, 1.0, 1e-3);
   EXPECT_NEAR(zero->frequency / of_flat->frequency, 1.0, 1e-4);
+}
+
+/// Also of edges whose radius falls with the height, which leave the workpiece at the upper end of a slice.
+TEST(CuttingEdge, SlicesChangeTheirTurnBySteps) {
+  using enum Engagement::Side;
+  Cutter dovetail = formed(0.0);
+  TriangleSurface face = rake_face(dovetail, 6e-3);
+  for (Vec3& point : face.points) point.head<2>() *= 1.0 - 0.5 * point.z() / 6e-3;
+  dovetail.edge = std::make_shared<const CuttingEdge>(face);
+  dovetail.helix = 0.0;
+  for (const auto& [cutter, depth] : {std::pair{formed(5e-3), 4.9e-3}, {dovetail, 6e-3}})
+    for (const auto side : {up, down})
+      for (const double radial_depth : {1e-3, 4e-3, 6.5e-3}) {
+        MillingCut cut = milling_cut(3, 2e9, 8e8, side, 0.5);
+        cut.cutter = cutter;
+        cut.engagement.radial_depth = radial_depth;
+        const std::vector<EdgeSlice> slices = edge_slices(cut, depth);
+        double before = -1.0, most = 0.0;
+        for (const EdgeSlice& slice : slices) {
+          const double begin = slice.exit[0] - slice.entry[0], end = slice.exit[1] - slice.entry[1];
+          EXPECT_LE(std::abs(end - begin), 0.1 + 1e-6) << radial_depth;
+          EXPECT_GT(slice.width, 1e-9 * depth) << "no slivers";
+          EXPECT_TRUE(before < 0.0 || begin == before);
+          before = end;
+          most = std::max(most, std::abs(end - begin));
+        }
+        EXPECT_GT(most, 0.005) << "the turn changes over the height";
+        EXPECT_LT(slices.size(), 150u);
+      }
+}
+
+/// Below half of its radius this ball is in the cut beyond the exit of its side, up to 180°: there, too, one
+/// tooth begins to miss it.
+TEST(CuttingEdge, FactorsOfABallWithRunOutAreThoseOfAFineSum) {
+  MillingCut cut = milling_cut(2, 2e9, 8e8, Engagement::Side::up, 0.75);
+  cut.cutter = formed(5e-3);
+  cut.cutter.pitch = equal_pitch(2);
+  cut.engagement.radial_depth = 1.5 * cut.cutter.radius();
+  cut.cutter.run_out = 0.25 * cut.feed;
+  KienzleLaw law;
+  law.Kt1 = 400e6;
+  law.Kr1 = 130e6;
+  law.mt = law.mr = 0.05;
+  cut.law = law;
+  constexpr double depth = 0.6e-3, spindle = 800.0; // radius 2.37 mm
+  const DirectionalFactors found = EngagedEdges(cut, depth, spindle).mean_factors();
+  DirectionalFactors sum = DirectionalFactors::Zero();
+  constexpr int heights = 8, angles = 5000;
+  bool misses_late = false;
+  for (const EdgeSlice& slice : edge_slices(cut, depth))
+    for (std::size_t tooth = 0; tooth < 2; ++tooth)
+      for (int i = 0; i < heights; ++i) {
+        const double x = (i + 0.5) / heights, entry = (1.0 - x) * slice.entry[0] + x * slice.entry[1],
+                     turn = (1.0 - x) * slice.exit[0] + x * slice.exit[1] - entry;
+        for (int k = 0; k < angles; ++k) {
+          const double phi = entry + turn * (k + 0.5) / angles,
+                       h = slice.sine * steady_thickness(cut, tooth, phi);
+          if (!(h > 0.0)) {
+            misses_late |= phi > cut.engagement.exit(cut.cutter) && phi < 2.9;
+            continue;
+          }
+          const LawPoint point = cut.law.at({.thickness = h, .speed = spindle * slice.radius});
+          sum += slice.answer(phi, point.slope) * (turn / (full_turn * heights * angles));
+        }
+      }
+  EXPECT_TRUE(misses_late);
+  EXPECT_LT((found - sum).norm() / sum.norm(), 1e-3);
 }
 
 } // namespace cnem::machining

@@ -263,5 +263,16 @@ TEST(Flank, OfAToothThatMissesTheCutDoesNotDamp) {
   EXPECT_TRUE(edges.damping(1, 1.0).isZero(0.0));
 }
 
+/// In the time domain lands see the ways of edges across the axis alone: so do lobes, also of a ball.
+TEST(Flank, OfABallMeetsNoVibrationAlongTheAxis) {
+  MillingCut cut = insperger(up, 0.5);
+  cut.flank = worn;
+  cut.cutter.corner = cut.cutter.radius();
+  const DirectionalFactors mean = EngagedEdges(cut, 1e-3, 300.0).mean_damping();
+  EXPECT_GT(mean.col(0).norm(), 0.0);
+  EXPECT_NE(mean(2, 0), 0.0) << "but push along it";
+  EXPECT_TRUE(mean.col(2).isZero(0.0));
+}
+
 } // namespace
 } // namespace cnem::machining
