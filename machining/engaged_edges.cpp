@@ -20,7 +20,7 @@ std::vector<double> ends_of_cones(const Cutter& cutter, double depth) {
   if (cutter.corner > 0.0) {
     constexpr int arcs = 24;
     for (int k = 1; k <= arcs; ++k) ends.push_back(cutter.corner * (1.0 - std::cos(quarter_turn * k / arcs)));
-    while (ends.size() > 1 && ends.back() >= depth) ends.pop_back();
+    while (ends.size() > 1 && ends.back() >= depth * (1.0 - 1e-9)) ends.pop_back(); // but for rounding
     ends.push_back(depth);
   } else if (cutter.edge) {
     const CuttingEdge& edge = *cutter.edge;
@@ -79,10 +79,10 @@ std::vector<double> ends_of_slices(const MillingCut& cut, double depth) {
   return ends;
 }
 
-/// Adds the integral of f over [from, to] in [0, 1], along which φ = φ₀ + x Δφ, in pieces of at most half a
-/// radian that end where φ is at a kink.
+/// Adds the integral of f by `few` Gauss points where it is short over [from, to] in [0, 1], along which φ =
+/// φ₀ + x Δφ, in pieces of at most half a radian that end where φ is at a kink.
 template<class F>
-void integrate(double from, double to, double phi, double change, std::span<const double> kinks,
+void integrate(double from, double to, double phi, double change, std::span<const double> kinks, int few,
                DirectionalFactors& sum, const F& f) {
   if (!(to > from)) return;
   if (change == 0.0) {
@@ -91,14 +91,14 @@ void integrate(double from, double to, double phi, double change, std::span<cons
   }
   for (const double kink : kinks)
     if (const double x = (kink - phi) / change; x > from && x < to) {
-      integrate(from, x, phi, change, kinks, sum, f);
-      integrate(x, to, phi, change, kinks, sum, f);
+      integrate(from, x, phi, change, kinks, few, sum, f);
+      integrate(x, to, phi, change, kinks, few, sum, f);
       return;
     }
   constexpr double piece = 0.5, short_one = 0.1; // rad
   const double turn = std::abs(change) * (to - from);
   const int pieces = std::max(1, static_cast<int>(std::ceil(turn / piece)));
-  const GaussRule& rule = gauss_rule(turn > short_one ? 8 : 2);
+  const GaussRule& rule = gauss_rule(turn > short_one ? 8 : few);
   const double width = (to - from) / pieces;
   for (int k = 0; k < pieces; ++k)
     for (std::size_t i = 0; i < rule.node.size(); ++i)
@@ -153,7 +153,8 @@ EngagedEdges::EngagedEdges(const MillingCut& cut, double depth, double spindle)
 template<class PerSlice>
 DirectionalFactors EngagedEdges::along_edge(std::size_t tooth, double tip, const PerSlice& per_slice) const {
   DirectionalFactors sum = DirectionalFactors::Zero();
-  constexpr double straight = 1e-9; // rad along a slice
+  constexpr double straight = 1e-9;           // rad along a slice
+  const int few = slices_.size() > 8 ? 2 : 8; // slopes of tables jump: many slices tell where
   for (std::size_t s = 0; s < slices_.size(); ++s) {
     const EdgeSlice& slice = slices_[s];
     // The tip is at such angles when the ends of the slice enter and leave.
@@ -180,7 +181,7 @@ DirectionalFactors EngagedEdges::along_edge(std::size_t tooth, double tip, const
           to = std::min(to, gone);
       }
       integrate(from, to, at - slice.lag[0], std::abs(lags) < straight ? 0.0 : -lags,
-                kinks_[s * cut_.cutter.teeth() + tooth], sum,
+                kinks_[s * cut_.cutter.teeth() + tooth], few, sum,
                 [&](double phi) { return per_slice(slice, phi); });
     }
   }
@@ -198,7 +199,7 @@ template<class PerSlice> DirectionalFactors EngagedEdges::mean_of_turn(const Per
                    turn = (1.0 - x) * slice.exit[0] + x * slice.exit[1] - entry;
       for (std::size_t j = 0; j < cut_.cutter.teeth(); ++j) {
         DirectionalFactors part = DirectionalFactors::Zero();
-        integrate(0.0, 1.0, entry, turn, kinks_[s * cut_.cutter.teeth() + j], part,
+        integrate(0.0, 1.0, entry, turn, kinks_[s * cut_.cutter.teeth() + j], 8, part,
                   [&](double phi) { return per_slice(slice, j, phi); });
         sum += rule.weight[i] * turn * part;
       }

@@ -262,7 +262,7 @@ TEST(CuttingEdge, SlicesChangeTheirTurnBySteps) {
   for (Vec3& point : face.points) point.head<2>() *= 1.0 - 0.5 * point.z() / 6e-3;
   dovetail.edge = std::make_shared<const CuttingEdge>(face);
   dovetail.helix = 0.0;
-  for (const auto& [cutter, depth] : {std::pair{formed(5e-3), 4.9e-3}, {dovetail, 6e-3}})
+  for (const auto& [cutter, depth] : {std::pair{formed(5e-3), 5e-3}, {dovetail, 6e-3}})
     for (const auto side : {up, down})
       for (const double radial_depth : {1e-3, 4e-3, 6.5e-3}) {
         MillingCut cut = milling_cut(3, 2e9, 8e8, side, 0.5);
