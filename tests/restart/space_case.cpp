@@ -190,7 +190,7 @@ velocity = "0 0 0 m/s"
 [tools.punch]
 shape = "box"
 box = { from = "0.2 0.9 -1 mm", to = "2 2 2 mm" }
-velocity = "0 -120 160 m/s"
+velocity = "0 -120 200 m/s"
 friction = { law = "coulomb", coefficient = 0.3 }
 )toml" + frequent_output +
          testing::steel_304l;
