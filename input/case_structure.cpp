@@ -48,16 +48,33 @@ std::optional<std::array<int, 3>> whole_numbers(const Setting& written, const ch
   return numbers;
 }
 
-std::array<int, 3> read_cells(const Setting& part, const Vec3& size, Diagnostics& diagnostics) {
+/// Of a number along the longest side of a box.
+std::array<int, 3> cells_as_long(const Vec3& size, int longest) {
+  std::array<int, 3> cells{};
+  for (int axis = 0; axis < 3; ++axis)
+    cells[index_of(axis)] =
+        std::max(1, static_cast<int>(std::ceil(longest * size[axis] / size.maxCoeff() - 1e-9)));
+  return cells;
+}
+
+std::array<int, 3> default_cells(const Vec3& size, machining::PartElement element) {
+  constexpr int least = 20, most = 30, few = 1000; // cells that take seconds
+  int longest = least;
+  if (element == machining::PartElement::hexahedron_27)
+    for (longest = most; longest > least; --longest)
+      if (const auto [x, y, z] = cells_as_long(size, longest); x * y * z <= few) break;
+  return cells_as_long(size, longest);
+}
+
+std::array<int, 3> read_cells(const Setting& part, const Vec3& size, machining::PartElement element,
+                              Diagnostics& diagnostics) {
   const Setting* written = part.find("cells");
-  constexpr double longest = 20.0, along = 1000.0;
+  constexpr double along = 1000.0;
   std::array<int, 3> cells{1, 1, 1};
   if (written)
     cells = whole_numbers(*written, "cells", along, diagnostics).value_or(cells);
   else
-    for (int axis = 0; axis < 3; ++axis)
-      cells[index_of(axis)] =
-          std::max(1, static_cast<int>(std::ceil(longest * size[axis] / size.maxCoeff() - 1e-9)));
+    cells = default_cells(size, element);
   constexpr int most = 20000;
   if (static_cast<double>(cells[0]) * cells[1] * cells[2] > most)
     diagnostics.add(
@@ -179,13 +196,16 @@ PartCase read_part(const Setting& table, Analysis::Type type, Diagnostics& diagn
                     "found a side without length, expected three > 0 m");
     return part;
   }
-  part.shape.divisions = read_cells(table, part.shape.size, diagnostics);
-  part.shape.materials = {read_solid(table)};
   part.element = table.choice<machining::PartElement>("element");
+  part.shape.divisions = read_cells(table, part.shape.size, part.element, diagnostics);
+  part.shape.materials = {read_solid(table)};
   read_zones(table, part.shape, diagnostics);
-  if (!table.find("cells") && part.element == machining::PartElement::hexahedron_27)
-    part.shape.more = machining::beside_steps(part.shape);
   read_supports(table, part, diagnostics);
+  if (!table.find("cells") && part.element == machining::PartElement::hexahedron_27)
+    for (const auto& beside :
+         {machining::beside_steps(part.shape), machining::beside_clamps(part.shape, part.supports)})
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        part.shape.more[axis].insert(part.shape.more[axis].end(), beside[axis].begin(), beside[axis].end());
   read_damping(table, part, diagnostics);
   read_directions(table, part, diagnostics);
   read_mapping(table, type, part, diagnostics);

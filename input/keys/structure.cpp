@@ -63,8 +63,8 @@ void add_part(Keys& k) {
       .of_space()
       .example("\"20 8 1\"")
       .computed(
-          "20 along the longest side, as long along the others; of `hexahedron_27` thin ones too on both "
-          "sides of steps");
+          "20 along the longest side, of `hexahedron_27` 30 where that makes at most 1000, as long along the "
+          "others; of `hexahedron_27` thin ones too on both sides of steps and beside clamped faces");
   k.add("part.clamped", choices, "Faces of the box that are held, `x0` where x is 0.")
       .one_of(faces)
       .example("[\"y0\"]");

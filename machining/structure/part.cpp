@@ -66,6 +66,21 @@ std::array<std::vector<double>, 3> beside_steps(const PartShape& shape) {
   return beside;
 }
 
+std::array<std::vector<double>, 3> beside_clamps(const PartShape& shape,
+                                                 std::span<const PartSupport> supports) {
+  constexpr double share = 0.25, least = 0.1, most = 0.75; // the latter two of a cell
+  std::array<std::vector<double>, 3> beside;
+  for (const PartSupport& support : supports) {
+    if (support.turns) continue;
+    const auto axis = index_of(support.axis);
+    const double size = shape.size[support.axis], cell = size / shape.divisions[axis],
+                 side = std::min(shape.size[(support.axis + 1) % 3], shape.size[(support.axis + 2) % 3]),
+                 in = std::max(share * side, least * cell);
+    if (in < most * cell) beside[axis].push_back(support.far ? size - in : in);
+  }
+  return beside;
+}
+
 Part::Part(PartShape shape, PartElement element, std::span<const PartSupport> supports)
     : shape_(std::move(shape)), element_(element) {
   for (Index axis = 0; axis < 3; ++axis) line_[index_of(axis)] = lines(shape_, axis);
