@@ -6,6 +6,7 @@
 #include "input/constants.hpp"
 #include "input/schema/document.hpp"
 #include "input/schema/nearest.hpp"
+#include "machining/engaged_edges.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -232,8 +233,8 @@ void read_machining(Setting& root, Case& result, Diagnostics& diagnostics) {
         "missing, expected a mode of tool or part, [modes.NAME], or a [part]: nothing else can chatter");
   const double turn = read.cut.feed * static_cast<double>(read.cut.cutter.teeth());
   constexpr double turns = 12.0, share = 0.1, degree = std::numbers::pi / 180.0, corner = 0.05;
-  // Of half a degree to one: layers that lag by more than a step leave gaps of angles that none of them is
-  // at, and forces come and go by a layer where edges enter.
+  // Of half a degree to one: where edges of a layer enter or leave more than a step after those below, forces
+  // come and go by a layer.
   const double lag =
       std::clamp(machining::full_turn / static_cast<double>(root.get<std::int64_t>("dexels.steps")),
                  0.5 * degree, degree);
@@ -241,9 +242,11 @@ void read_machining(Setting& root, Case& result, Diagnostics& diagnostics) {
   root.set_default("dexels.pitch", share * read.cut.feed);
   const double rounded = // m, over which the radius of edges changes
       read.cut.cutter.edge ? read.axial_depth : std::min(read.cut.cutter.corner, read.axial_depth);
-  const double layers = std::ceil(std::max(std::abs(read.cut.cutter.lag(read.axial_depth)) / lag,
-                                           rounded > 0.0 ? read.axial_depth / (corner * rounded) : 0.0) -
-                                  1e-9);
+  const double layers =
+      std::ceil((rounded > 0.0 ? std::max(machining::moves_on(read.cut, read.axial_depth) / lag,
+                                          read.axial_depth / (corner * rounded))
+                               : std::abs(read.cut.cutter.lag(read.axial_depth)) / lag) -
+                1e-9);
   root.set_default("dexels.layers", static_cast<std::int64_t>(std::clamp(layers, 1.0, 2000.0)));
   read.length = root.maybe<double>("milling.length").value_or(0.0);
   read.dwell = root.get<double>("milling.dwell");

@@ -143,6 +143,49 @@ std::vector<EdgeSlice> edge_slices(const MillingCut& cut, double depth) {
   return slices;
 }
 
+SteadyChips steady_chips(const MillingCut& cut, double depth) {
+  const std::vector<double> ends = ends_of_slices(cut, depth);
+  SteadyChips chips;
+  const auto at = [&](double z) { // of edges at a height
+    const double radius = cut.cutter.radius_at(z), lead = cut.cutter.lead(z, z),
+                 entry = cut.engagement.entry(cut.cutter, radius),
+                 exit = cut.engagement.exit(cut.cutter, radius);
+    if (!(exit > entry)) return;
+    const bool farthest = radius > chips.radius;
+    if (farthest) {
+      chips.radius = radius;
+      chips.thinnest = infinite;
+    }
+    for (std::size_t j = 0; j < cut.cutter.teeth(); ++j) {
+      chips.thickest =
+          std::max(chips.thickest, std::sin(lead) * steady_thickness(cut, j, foremost_of(entry, exit)));
+      // Within a hundredth of the engagement of where the thickness is nothing anyway it does not count.
+      for (int k = 1; farthest && k < 100; ++k)
+        chips.thinnest =
+            std::min(chips.thinnest, steady_thickness(cut, j, entry + 0.01 * k * (exit - entry)));
+    }
+  };
+  for (const double z : ends) at(z);
+  return chips;
+}
+
+double moves_on(const MillingCut& cut, double depth) {
+  constexpr int pieces = 1000;
+  double entry = 0.0, exit = 0.0;
+  Vec2 before;
+  for (int k = 0; k <= pieces; ++k) {
+    const double z = depth * k / pieces, radius = cut.cutter.radius_at(z), lag = cut.cutter.lag(z);
+    const Vec2 now(lag + cut.engagement.entry(cut.cutter, radius),
+                   lag + cut.engagement.exit(cut.cutter, radius));
+    if (k > 0) {
+      entry += std::abs(now.x() - before.x());
+      exit += std::abs(now.y() - before.y());
+    }
+    before = now;
+  }
+  return std::max(entry, exit);
+}
+
 EngagedEdges::EngagedEdges(const MillingCut& cut, double depth, double spindle)
     : cut_(cut), spindle_(spindle), slices_(edge_slices(cut, depth)) {
   for (const EdgeSlice& slice : slices_)

@@ -27,6 +27,18 @@ struct EdgeSlice {
 /// From the tip up to a depth: one of a flat end, those of a face or of a corner's arc otherwise.
 std::vector<EdgeSlice> edge_slices(const MillingCut& cut, double depth);
 
+/// Of all teeth where they cut, over the engagement of edges up to a depth.
+struct SteadyChips {
+  double thickest = 0.0;      ///< m, of any height
+  double thinnest = infinite; ///< m, where edges go the farthest out; ≤ 0 where a tooth misses the cut there
+  double radius = 0.0;        ///< m, of edges there
+};
+SteadyChips steady_chips(const MillingCut& cut, double depth);
+
+/// rad, by how much the angles of the tip at which edges enter, or leave, move on up to a depth: whichever do
+/// so more.
+double moves_on(const MillingCut& cut, double depth);
+
 class EngagedEdges {
 public:
   /// depth: m; spindle: rad/s.

@@ -13,12 +13,6 @@ namespace cnem::machining {
 
 namespace {
 
-/// rad, within the engagement, where sin φ is the largest.
-double foremost_of(const MillingCut& cut) {
-  return std::clamp(0.5 * std::numbers::pi, cut.engagement.entry(cut.cutter),
-                    cut.engagement.exit(cut.cutter));
-}
-
 /// Thickness of a steady chip over sin φ, and what run-out adds, m.
 struct Chip {
   double feed, more;
@@ -62,19 +56,6 @@ std::vector<double> changes_within(const MillingCut& cut, std::size_t tooth, dou
   return changes;
 }
 
-SteadyChips steady_chips(const MillingCut& cut) {
-  const double from = cut.engagement.entry(cut.cutter), to = cut.engagement.exit(cut.cutter);
-  const double foremost = foremost_of(cut);
-  SteadyChips chips;
-  for (std::size_t j = 0; j < cut.cutter.teeth(); ++j) {
-    chips.thickest = std::max(chips.thickest, steady_thickness(cut, j, foremost));
-    // Within a hundredth of the engagement of where the thickness is nothing anyway it does not count.
-    for (int k = 1; k < 100; ++k)
-      chips.thinnest = std::min(chips.thinnest, steady_thickness(cut, j, from + 0.01 * k * (to - from)));
-  }
-  return chips;
-}
-
 double flank_rise(const MillingCut& cut, std::size_t tooth, double phi, double radius) {
   const Cutter& cutter = cut.cutter;
   const double feed = cut.feed * static_cast<double>(cutter.teeth()) / full_turn; // m per rad
@@ -82,8 +63,10 @@ double flank_rise(const MillingCut& cut, std::size_t tooth, double phi, double r
          radius;
 }
 
+double foremost_of(double entry, double exit) { return std::clamp(0.5 * std::numbers::pi, entry, exit); }
+
 double longest_contact(const MillingCut& cut) {
-  const double foremost = foremost_of(cut);
+  const double foremost = foremost_of(cut.engagement.entry(cut.cutter), cut.engagement.exit(cut.cutter));
   double longest = 0.0;
   for (std::size_t j = 0; j < cut.cutter.teeth(); ++j)
     if (steady_thickness(cut, j, foremost) > 0.0)

@@ -31,15 +31,12 @@ double period_of(const MillingCut& cut);
 /// begins to miss the cut, and where its land begins to leave the surface.
 std::vector<double> changes_within(const MillingCut& cut, std::size_t tooth, double radius);
 
-/// Of all teeth where they cut, over the engagement, m; thinnest ≤ 0 where one misses the cut.
-struct SteadyChips {
-  double thinnest = infinite, thickest = 0.0;
-};
-SteadyChips steady_chips(const MillingCut& cut);
-
 /// By how much the way of an edge leaves its circle, of a radius, m, outwards per length of it: by its feed,
 /// and by the run-out.
 double flank_rise(const MillingCut& cut, std::size_t tooth, double phi, double radius);
+
+/// rad, between two angles, where sin φ is the largest.
+double foremost_of(double entry, double exit);
 
 /// m, the longest contact of a land over the engagement.
 double longest_contact(const MillingCut& cut);

@@ -3,6 +3,7 @@
 #include "app/machining/machining_session.hpp"
 #include "app/machining/removal_run.hpp"
 #include "app/machining/structure_modes.hpp"
+#include "machining/engaged_edges.hpp"
 #include "results/si_format.hpp"
 
 #include <algorithm>
@@ -45,7 +46,7 @@ std::vector<std::string> flank_doubts(const input::Case& input, const std::vecto
   if (!(contact > 0.0))
     doubt("cutting.flank.clearance",
           "the land touches nothing in a steady cut, expected a recovery of the surface, or less clearance");
-  const double thickest = machining::steady_chips(milling.cut).thickest;
+  const double thickest = machining::steady_chips(milling.cut, milling.axial_depth).thickest;
   if (milling.cut.flank.recovery >= thickest)
     doubt("cutting.flank.recovery",
           fmt::format("the surface springs back by {}, expected less than the thickest chip, {}",
@@ -65,11 +66,12 @@ std::vector<std::string> flank_doubts(const input::Case& input, const std::vecto
 }
 
 /// What of a cut lies beyond the range of its law.
-std::vector<std::string> law_doubts(const input::Case& input, double thickest) {
+std::vector<std::string> law_doubts(const input::Case& input, const machining::SteadyChips& chips) {
   const input::MachiningCase& milling = *input.machining;
   const machining::LawRange& holds = milling.law_range;
   constexpr double degree = std::numbers::pi / 180.0, rounding = 1e-6; // of numbers as files have them
   std::vector<std::string> doubts;
+  if (!(chips.radius > 0.0)) return doubts; // no edge comes to the workpiece
   const auto compare = [&](const Range& range, double value, const char* name, const std::string& what,
                            auto&& text) {
     const double slack = rounding * std::max(std::abs(range.low), std::abs(range.high));
@@ -85,9 +87,9 @@ std::vector<std::string> law_doubts(const input::Case& input, double thickest) {
                                text(range.low), range.high > range.low ? " to " + text(range.high) : ""))
             .what());
   };
-  compare(holds.thickness, thickest, "thickness", "chips are up to",
+  compare(holds.thickness, chips.thickest, "thickness", "chips are up to",
           [](double h) { return si_format(h, "m"); });
-  compare(holds.speed, milling.speed * milling.cut.cutter.radius(), "speed", "edges move at",
+  compare(holds.speed, milling.speed * chips.radius, "speed", "edges move at",
           [](double v) { return si_format(v, "m/s"); });
   if (!milling.rake) return doubts;
   const bool facets = milling.cut.cutter.edge != nullptr; // lean by as much as an edge turns along them
@@ -134,8 +136,8 @@ std::vector<std::string> milling_doubts(const input::Case& input,
   if (input.structure->removal) return removal_doubts(input);
   if (!input.machining) return doubts;
   const input::MachiningCase& milling = *input.machining;
-  const auto [thinnest, thickest] = machining::steady_chips(milling.cut);
-  if (input.analysis.type == input::Analysis::Type::stability && thinnest <= 0.0)
+  const machining::SteadyChips chips = machining::steady_chips(milling.cut, milling.axial_depth);
+  if (input.analysis.type == input::Analysis::Type::stability && chips.thinnest <= 0.0)
     doubts.push_back(
         input
             .error("cutter.run_out",
@@ -143,7 +145,7 @@ std::vector<std::string> milling_doubts(const input::Case& input,
                    "by the next one, which stability takes no account of; expected a run-out well "
                    "below milling.feed")
             .what());
-  for (std::string& doubt : law_doubts(input, thickest)) doubts.push_back(std::move(doubt));
+  for (std::string& doubt : law_doubts(input, chips)) doubts.push_back(std::move(doubt));
   for (std::string& doubt : flank_doubts(input, modes)) doubts.push_back(std::move(doubt));
   if (input.analysis.type != input::Analysis::Type::milling) return doubts;
   for (std::string& doubt : reach_doubts(input)) doubts.push_back(std::move(doubt));

@@ -6,6 +6,7 @@
 #include "core/index.hpp"
 #include "input/case_machining.hpp"
 #include "input/left_workpiece.hpp"
+#include "machining/engaged_edges.hpp"
 #include "report/picture_album.hpp"
 #include "report/surface_map.hpp"
 #include "results/file_queue.hpp"
@@ -219,9 +220,8 @@ MillingRun::Window MillingRun::steady_turns(double share, double most) const {
 
 double MillingRun::still_chips() const {
   const input::MachiningCase& milling = *input_.machining;
-  if (milling.passes.empty() && process_.motion().steady()) // across the profile, where it is the steepest
-    return std::sin(milling.cut.cutter.lead(milling.axial_depth, milling.axial_depth)) *
-           machining::steady_chips(milling.cut).thickest;
+  if (milling.passes.empty() && process_.motion().steady())
+    return machining::steady_chips(milling.cut, milling.axial_depth).thickest;
   if (modes_.empty()) return 0.0; // it is that run itself
   machining::MillingProcess rigid = process_.rigid();
   double thickest = 0.0;

@@ -235,8 +235,8 @@ void add_milling(Keys& k) {
         "`tip` of a pass lies between two.")
       .in({.low = 1, .high = 2000})
       .example("20")
-      .computed("edges lag behind by at most a step in a layer, 0.5 to 1 deg, which is at most a twentieth "
-                "of a corner");
+      .computed("edges of a layer enter and leave at most a step, 0.5 to 1 deg, after those below; it is at "
+                "most a twentieth of a corner");
   k.add("dexels.steps", integer, "In a turn.").in({.low = 36, .high = 1e6}).fallback("720");
 }
 
