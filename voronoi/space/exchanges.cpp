@@ -25,8 +25,8 @@ std::vector<FlipMesh::Nodes> key_of(std::vector<FlipMesh::Nodes> nodes) {
   return nodes;
 }
 
-Exchanges::Exchanges(const Cloud<3>& cloud, Delaunay& delaunay)
-    : mesh(cloud, delaunay), first_(delaunay.first) {
+SurfaceParts::SurfaceParts(const Cloud<3>& cloud, const IndexedVector<NodeIndex, NodeIndex>& first)
+    : first_(first) {
   for (const auto& facet : cloud.facets) {
     const Face face = at_first(facet);
     facets_.push_back(face);
@@ -37,15 +37,15 @@ Exchanges::Exchanges(const Cloud<3>& cloud, Delaunay& delaunay)
   edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
 }
 
-Face Exchanges::at_first(const Facet<3>& facet) const {
+Face SurfaceParts::at_first(const Facet<3>& facet) const {
   return face_of(first_[facet.node[0]], first_[facet.node[1]], first_[facet.node[2]]);
 }
 
-bool Exchanges::is_edge(const Edge& edge) const {
+bool SurfaceParts::is_edge(const Edge& edge) const {
   return std::binary_search(edges_.begin(), edges_.end(), edge);
 }
 
-bool Exchanges::is_facet(const Face& face) const {
+bool SurfaceParts::is_facet(const Face& face) const {
   return std::binary_search(facets_.begin(), facets_.end(), face);
 }
 
@@ -57,8 +57,8 @@ std::vector<FlipMesh::Nodes> Exchanges::nodes_of(const std::vector<SimplexIndex>
 
 void Exchanges::add_removals(const Edge& edge, std::vector<Exchange>& exchanges) {
   const NodeIndex d = edge.first, e = edge.second;
-  if (is_edge(edge)) return;
-  const SimplexIndex start = mesh.with(d, e);
+  if (surface_.is_edge(edge)) return;
+  const SimplexIndex start = mesh.stars().with(d, e);
   if (!exists(start)) return;
   const FlipMesh::Ring ring = mesh.ring(d, e, start);
   const std::size_t n = ring.around.size();
@@ -103,8 +103,8 @@ void Exchanges::add_removals(const Edge& edge, std::vector<Exchange>& exchanges)
 }
 
 void Exchanges::add_split(const Face& face, std::vector<Exchange>& exchanges) {
-  if (is_facet(face)) return;
-  const SimplexIndex t = mesh.with(face[0], face[1], face[2]);
+  if (surface_.is_facet(face)) return;
+  const SimplexIndex t = mesh.stars().with(face[0], face[1], face[2]);
   if (!exists(t)) return;
   std::size_t k = 0;
   while (std::find(face.begin(), face.end(), mesh.nodes(t)[k]) != face.end()) ++k;

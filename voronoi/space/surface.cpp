@@ -1,7 +1,7 @@
 #include "voronoi/space/surface.hpp"
 
 #include "core/error.hpp"
-#include "core/geometry/box_tree.hpp"
+#include "core/geometry/box.hpp"
 #include "core/geometry/facets.hpp"
 #include "core/geometry/place_text.hpp"
 #include "core/index.hpp"
@@ -110,6 +110,8 @@ int side(const Cloud<3>& cloud, const std::array<NodeIndex, 3>& facet, NodeIndex
 
 /// Whether the segment from p to q passes through the inside of the triangle or of one of its edges.
 bool pierces(const Cloud<3>& cloud, NodeIndex p, NodeIndex q, const std::array<NodeIndex, 3>& triangle) {
+  for (const NodeIndex corner : triangle)
+    if (corner == p || corner == q) return false; // it is on the plane
   if (side(cloud, triangle, p) * side(cloud, triangle, q) >= 0) return false;
   int turns[3];
   for (std::size_t k = 0; k < 3; ++k) turns[k] = side(cloud, {p, q, triangle[k]}, triangle[(k + 1) % 3]);
@@ -168,20 +170,15 @@ IndexedVector<CloudFacetIndex, CloudFacetIndex> facets_behind(const Cloud<3>& cl
 }
 
 void refuse_crossings(const Cloud<3>& cloud, const std::vector<CloudFacetIndex>& suspects) {
-  const auto box = [&](CloudFacetIndex f) {
-    return box_of<3>(corners_of<3>(cloud.facets[f], cloud.position));
-  };
-  std::vector<Box<3>> boxes;
-  for (const CloudFacetIndex f : cloud.facets.indices()) boxes.push_back(box(f));
-  const BoxTree tree(std::move(boxes));
+  IndexedVector<CloudFacetIndex, Box<3>> box;
+  for (const auto& facet : cloud.facets) box.push_back(box_of<3>(corners_of<3>(facet, cloud.position)));
   for (const CloudFacetIndex f : suspects) {
+    const auto crosses_f = [&](CloudFacetIndex g) {
+      return f != g && overlap(box[f], box[g]) && cross(cloud, cloud.facets[f].node, cloud.facets[g].node);
+    };
     CloudFacetIndex crossed = CloudFacetIndex::none;
-    tree.overlapping(box(f), [&](std::int32_t number) {
-      const auto g = as<CloudFacetIndex>(number);
-      if (f != g && (!exists(crossed) || g < crossed) &&
-          cross(cloud, cloud.facets[f].node, cloud.facets[g].node))
-        crossed = g;
-    });
+    for (const CloudFacetIndex g : box.indices())
+      if (!exists(crossed) && crosses_f(g)) crossed = g;
     if (exists(crossed))
       throw GeometryError(fmt::format("the surface crosses itself: {} crosses {}", describe_facet(cloud, f),
                                       describe_facet(cloud, crossed)));
