@@ -147,7 +147,9 @@ void restore_volume(WorkingBody& body, const IndexedVector<CloudFacetIndex, Face
   Field debt(body.size(), 0.0);
   for (const NodeIndex i : owing) debt[index_of(i)] = -gained / static_cast<double>(owing.size());
   give_back(surface, std::move(debt), body.node().size, rules.thresholds.surface.give_back);
+  const std::vector<CloudFacetIndex> moved = surface.changed_facets(body.cloud());
   for (const NodeIndex i : body.nodes()) body.place(i, surface.at(i));
+  if (voronoi::crossings(body.cloud(), moved).empty()) body.set_sound(); // as faces of tetrahedra have been
 }
 
 } // namespace

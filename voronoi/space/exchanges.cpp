@@ -26,15 +26,16 @@ std::vector<FlipMesh::Nodes> key_of(std::vector<FlipMesh::Nodes> nodes) {
 }
 
 SurfaceParts::SurfaceParts(const Cloud<3>& cloud, const IndexedVector<NodeIndex, NodeIndex>& first)
-    : first_(first) {
+    : first_(first), begin_(cloud.position.size() + 2, 0), faces_(2 * cloud.facets.size()) {
   for (const auto& facet : cloud.facets) {
     const Face face = at_first(facet);
-    facets_.push_back(face);
-    for (std::size_t k = 0; k < 3; ++k) edges_.push_back(edge_of(face[k], face[(k + 1) % 3]));
+    for (const NodeIndex i : {face[0], face[1]}) ++begin_[index_of(i) + 2];
   }
-  std::sort(facets_.begin(), facets_.end());
-  std::sort(edges_.begin(), edges_.end());
-  edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
+  for (std::size_t i = 2; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
+  for (const auto& facet : cloud.facets) {
+    const Face face = at_first(facet);
+    for (const NodeIndex i : {face[0], face[1]}) faces_[begin_[index_of(i) + 1]++] = face;
+  }
 }
 
 Face SurfaceParts::at_first(const Facet<3>& facet) const {
@@ -42,11 +43,15 @@ Face SurfaceParts::at_first(const Facet<3>& facet) const {
 }
 
 bool SurfaceParts::is_edge(const Edge& edge) const {
-  return std::binary_search(edges_.begin(), edges_.end(), edge);
+  const auto faces = at(edge.first);
+  return std::any_of(faces.begin(), faces.end(), [&](const Face& face) {
+    return std::find(face.begin(), face.end(), edge.second) != face.end();
+  });
 }
 
 bool SurfaceParts::is_facet(const Face& face) const {
-  return std::binary_search(facets_.begin(), facets_.end(), face);
+  const auto faces = at(face[0]);
+  return std::find(faces.begin(), faces.end(), face) != faces.end();
 }
 
 std::vector<FlipMesh::Nodes> Exchanges::nodes_of(const std::vector<SimplexIndex>& tetrahedra) const {

@@ -2,6 +2,8 @@
 // Ways to exchange tetrahedra for others that keep the facets of a cloud and the edges of its surface.
 #include "voronoi/space/flip_mesh.hpp"
 
+#include <cstdint>
+#include <span>
 #include <utility>
 
 namespace cnem::voronoi {
@@ -33,9 +35,12 @@ public:
   bool is_facet(const Face& face) const;
 
 private:
+  std::span<const Face> at(NodeIndex i) const {
+    return std::span(faces_).subspan(begin_[index_of(i)], begin_[index_of(i) + 1] - begin_[index_of(i)]);
+  }
   const IndexedVector<NodeIndex, NodeIndex>& first_;
-  std::vector<Edge> edges_;  ///< in order
-  std::vector<Face> facets_; ///< in order
+  std::vector<std::uint32_t> begin_; ///< [node]
+  std::vector<Face> faces_; ///< those of which a node is the lowest or the middle one, node after node
 };
 
 class Exchanges {

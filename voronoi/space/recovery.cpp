@@ -56,8 +56,9 @@ public:
                                         describe_facet(cloud, walls.lost.front()), most_rounds));
       const bool flips_help = round < most_flipping; // else they go round in a circle
       if (!walls.lost.empty() && flips_help) {
-        counts.flipped += fit(mesh, rules_.flat_angle);
-        walls = find_walls(cloud, mesh);
+        const int flips = fit(mesh, walls.lost, rules_.flat_angle);
+        counts.flipped += flips;
+        if (flips > 0) walls = find_walls(cloud, mesh);
       }
       peel(mesh, walls);
       if (walls.lost.empty()) {
@@ -77,7 +78,7 @@ public:
         walls = find_walls(cloud, mesh);
         continue;
       }
-      if (const int flips = flips_help ? fit(flipped, rules_.smooth_angle) : 0) {
+      if (const int flips = flips_help ? fit(flipped, walls.lost, rules_.smooth_angle) : 0) {
         counts.flipped += flips;
       } else if (remove_near(walls.lost)) {
         mesh = delaunay(cloud);
@@ -109,9 +110,9 @@ private:
     }
   }
 
-  int fit(const Delaunay& mesh, double angle) {
+  int fit(const Delaunay& mesh, const std::vector<CloudFacetIndex>& lost, double angle) {
     int flips = 0;
-    without_crossings([&] { return (flips = fit_surface(result_.cloud, mesh, angle, fixed_)) > 0; });
+    without_crossings([&] { return (flips = fit_surface(result_.cloud, mesh, lost, angle, fixed_)) > 0; });
     return flips;
   }
 

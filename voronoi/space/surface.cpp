@@ -31,44 +31,48 @@ void check_lists(const Cloud<3>& cloud) {
   }
 }
 
-/// Edges as pairs: of each edge, the one that runs the other way. Facets are found by the lower end of an
-/// edge.
+/// Edges as pairs: of each edge, the one that runs the other way. They are found by their lower end.
 SurfaceEdges paired_edges(const Cloud<3>& cloud) {
-  const auto ends = [&](SurfaceEdge e) {
-    const auto& node = cloud.facets[facet_of(e)].node;
-    return std::array{node[place_of(e)], node[(place_of(e) + 1) % 3]};
+  struct AtLower {
+    NodeIndex higher;
+    SurfaceEdge edge;
+    bool up; ///< from the lower end
   };
-  const std::size_t edges = 3 * cloud.facets.size();
+  const auto ends = [&](CloudFacetIndex f, std::size_t k) {
+    const auto& node = cloud.facets[f].node;
+    return std::array{node[k], node[(k + 1) % 3]};
+  };
   std::vector<std::uint32_t> begin(cloud.position.size() + 2, 0);
-  for (std::size_t e = 0; e < edges; ++e) {
-    const auto [a, b] = ends(as<SurfaceEdge>(e));
-    ++begin[index_of(std::min(a, b)) + 2];
-  }
+  for (const CloudFacetIndex f : cloud.facets.indices())
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [a, b] = ends(f, k);
+      ++begin[index_of(std::min(a, b)) + 2];
+    }
   for (std::size_t i = 2; i < begin.size(); ++i) begin[i] += begin[i - 1];
-  std::vector<SurfaceEdge> of_lower(edges);
-  for (std::size_t e = 0; e < edges; ++e) {
-    const auto [a, b] = ends(as<SurfaceEdge>(e));
-    of_lower[begin[index_of(std::min(a, b)) + 1]++] = as<SurfaceEdge>(e);
-  }
+  std::vector<AtLower> entry(3 * cloud.facets.size());
+  for (const CloudFacetIndex f : cloud.facets.indices())
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [a, b] = ends(f, k);
+      entry[begin[index_of(std::min(a, b)) + 1]++] = {std::max(a, b), edge_at(f, k), a < b};
+    }
   SurfaceEdges across(cloud.facets.size(), {no_edge, no_edge, no_edge});
   for (const CloudFacetIndex f : cloud.facets.indices())
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto [a, b] = ends(edge_at(f, k));
+      const auto [a, b] = ends(f, k);
       SurfaceEdge found = no_edge;
       const auto edge_text = [&, a = a, b = b] {
         return fmt::format("the edge from {} to {}", describe_node(cloud, a), describe_node(cloud, b));
       };
       const std::size_t lower = index_of(std::min(a, b));
       for (std::uint32_t q = begin[lower]; q < begin[lower + 1]; ++q) {
-        const SurfaceEdge other = of_lower[q];
-        const auto [c, d] = ends(other);
-        if (other == edge_at(f, k) || std::max(c, d) != std::max(a, b)) continue;
-        if (c == a)
+        const AtLower& other = entry[q];
+        if (other.higher != std::max(a, b) || other.edge == edge_at(f, k)) continue;
+        if (other.up == (a < b))
           throw GeometryError(fmt::format(
               "{} and facet {} run along {} in the same direction: expected a surface that does not branch, "
               "with all normals outwards (inside out?)",
-              describe_facet(cloud, f), index_of(facet_of(other)), edge_text()));
-        found = other; // a third one would run as one of the two
+              describe_facet(cloud, f), index_of(facet_of(other.edge)), edge_text()));
+        found = other.edge; // a third one would run as one of the two
       }
       if (found == no_edge)
         throw GeometryError(fmt::format("open surface: {} has no other side at {}, expected a closed surface",

@@ -34,7 +34,8 @@ private:
 
 } // namespace
 
-int fit_surface(Cloud<3>& cloud, const Delaunay& mesh, double flat_angle, const FixedNodes& fixed) {
+int fit_surface(Cloud<3>& cloud, const Delaunay& mesh, const std::vector<CloudFacetIndex>& lost,
+                double flat_angle, const FixedNodes& fixed) {
   SurfaceFaces faces(mesh);
   FlippableSurface surface(cloud, fixed);
   const double least_cosine = std::cos(flat_angle);
@@ -42,10 +43,7 @@ int fit_surface(Cloud<3>& cloud, const Delaunay& mesh, double flat_angle, const 
   const auto push = [&](CloudFacetIndex f) {
     for (std::size_t k = 0; k < 3; ++k) stack.push_back(edge_at(f, k));
   };
-  for (const CloudFacetIndex f : cloud.facets.indices()) {
-    const auto& [a, b, c] = cloud.facets[f].node;
-    if (!faces.has(a, b, c)) push(f);
-  }
+  for (const CloudFacetIndex f : lost) push(f);
   int flips = 0;
   while (!stack.empty()) {
     const SurfaceEdge e = stack.back(), back = surface.across(e);
