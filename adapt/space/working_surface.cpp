@@ -13,7 +13,6 @@
 namespace cnem::adapt {
 
 using voronoi::next_edge;
-
 namespace {
 
 double cosine(double degrees) { return std::cos(degrees * std::numbers::pi / 180.0); }
