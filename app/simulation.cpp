@@ -257,8 +257,9 @@ template<int dim> void Simulation<dim>::adapt_and_step() {
   retries_.look(state.time);
   const bool rereference =
       watch_.time("step", [&] { return renewal_.due(solver_, retries_.strain_share()); });
-  const bool check =
-      rereference || (state.step - last_check_) * solver_.sub_steps() >= input_.time.check_every;
+  const bool check = rereference ||
+                     (state.step - last_check_) * solver_.sub_steps() >= input_.time.check_every ||
+                     control_.outgrown(solver_);
   if (check) // before nodes are put on facets, where contact has yet to find them
     watch_.time("step", [&] { watch_.time("step.stable", [&] { look_around(); }); });
   bool good = retries_.lacks_state();

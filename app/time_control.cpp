@@ -78,6 +78,7 @@ template<int dim> void StepControl::refresh(ExplicitSolver<dim>& solver) {
     limit_ = *time_->max_step;
     limited_by_ = "time.step.max";
   }
+  most_damping_ = damping_of_step(time_->safety * damped_step(solver.critical_damping()) * limit_ / stable_);
 }
 
 double StepControl::choose(double now, double event) {
@@ -98,6 +99,7 @@ std::vector<std::pair<std::string, double>> StepControl::shares() const {
 void StepControl::archive(Archive& archive) {
   archive.number("run/step/limit", "s", limit_);
   archive.number("run/step/first", "s", first_);
+  archive.number("run/step/most_damping", "1", most_damping_);
   archive.text("run/step/limited_by", limited_by_);
   archive.integer("run/step/point", point_);
   std::vector<std::string> names;

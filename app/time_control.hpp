@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -45,6 +46,11 @@ public:
   /// Looks at the stable step anew: after a re-reference, and every `check_every` steps. Throws
   /// DivergenceError when it has collapsed.
   template<int dim> void refresh(ExplicitSolver<dim>& solver);
+  /// Whether damping has grown since then by so much that the step is no longer stable: a shock, or a light
+  /// node that a new reference has set ringing.
+  template<int dim> bool outgrown(const ExplicitSolver<dim>& solver) const {
+    return solver.critical_damping() > most_damping_;
+  }
   /// The step from `now` towards the next event.
   double choose(double now, double event);
 
@@ -63,8 +69,9 @@ public:
 
 private:
   const input::TimeControl* time_;
-  double limit_ = 0.0, stable_ = 0.0; ///< s
-  double first_ = 0.0;                ///< s, the stable step at the start
+  double limit_ = 0.0, stable_ = 0.0;                             ///< s
+  double first_ = 0.0;                                            ///< s, the stable step at the start
+  double most_damping_ = std::numeric_limits<double>::infinity(); ///< –, with which `limit_` is stable
   std::string limited_by_;
   std::size_t point_ = 0;
   std::map<std::string, std::int64_t> count_;

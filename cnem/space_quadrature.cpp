@@ -85,6 +85,22 @@ struct FunctionsAt {
   voronoi::NaturalNeighbours3 neighbours;
   Polygon polygon;
   std::vector<SimplexIndex> around;
+  FaceMeans::Block block; ///< while it grows: it is kept without room to spare
+};
+
+/// A triangle of the fan of a facet, from the middle between its nodes.
+struct FanTriangle {
+  Vec<3> middle, from, to;
+
+  FanTriangle(const Cloud<3>& cloud, const VoronoiCells& cells, const Item& item) {
+    const auto ring = cells.rings.of(item.edge);
+    const auto& [i, j] = cells.rings.end[item.edge];
+    middle = 0.5 * (cloud.position[i] + cloud.position[j]);
+    from = cells.points.place[ring[index_of(item.triangle)]];
+    to = cells.points.place[ring[index_of(item.triangle + 1) % ring.size()]];
+  }
+  Vec<3> area() const { return 0.5 * (from - middle).cross(to - middle); }
+  Vec<3> centroid() const { return (middle + from + to) / 3.0; }
 };
 
 } // namespace
@@ -113,18 +129,16 @@ FacetMeans facet_means(const Cloud<3>& cloud, const voronoi::Tetrahedra& mesh, v
       for (std::size_t k = 0; k < triangles(e); ++k) items.push_back({e, as<std::int32_t>(k)});
   }
 
-  const voronoi::FunctionMesh function_mesh(cloud, mesh, spheres, functions);
+  std::optional<voronoi::FunctionMesh> function_mesh(std::in_place, cloud, mesh, spheres, functions);
   spheres = {};
-  std::vector<Interface<3>> facet(items.size());
   constexpr std::size_t size = FaceMeans::block_size;
   std::vector<FaceMeans::Block> list((items.size() + size - 1) / size);
   const auto integrate = [&](std::size_t b, FunctionsAt& at) {
-    FaceMeans::Block& block = list[b];
+    FaceMeans::Block& block = at.block;
     const std::size_t first = b * size, last = std::min(first + size, items.size());
-    block.begin.reserve(last - first + 1);
-    block.node.reserve(16 * (last - first));
-    block.value.reserve(16 * (last - first));
-    block.begin.push_back(0);
+    block.node.clear();
+    block.value.clear();
+    block.begin.assign(1, 0);
     for (std::size_t k = first; k < last; ++k) {
       const auto& [edge, triangle] = items[k];
       const auto ring = cells.rings.of(edge);
@@ -132,7 +146,6 @@ FacetMeans facet_means(const Cloud<3>& cloud, const voronoi::Tetrahedra& mesh, v
       at.around.clear();
       for (const DualPointIndex p : ring)
         if (index_of(p) < tetrahedra) at.around.push_back(as<SimplexIndex>(index_of(p)));
-      facet[k] = {cells.rings.end[edge], cells.normal[edge]};
       if (triangle < 0) {
         at.polygon.set(cloud, cells, edge);
         at.polygon.find_centroid();
@@ -145,18 +158,16 @@ FacetMeans facet_means(const Cloud<3>& cloud, const voronoi::Tetrahedra& mesh, v
         else
           at.polygon.for_each_part(add);
       } else {
+        const FanTriangle part(cloud, cells, items[k]);
         const auto& [i, j] = cells.rings.end[edge];
-        const Vec<3> middle = 0.5 * (cloud.position[i] + cloud.position[j]);
-        const Vec<3>&p = cells.points.place[ring[index_of(triangle)]],
-              &q = cells.points.place[ring[index_of(triangle + 1) % ring.size()]];
-        facet[k].area = 0.5 * (p - middle).cross(q - middle);
-        if (facet[k].area.norm() > least_area * (cloud.position[j] - cloud.position[i]).squaredNorm()) {
-          at.neighbours.evaluate(functions, (middle + p + q) / 3.0, at.around);
+        if (part.area().norm() > least_area * (cloud.position[j] - cloud.position[i]).squaredNorm()) {
+          at.neighbours.evaluate(functions, part.centroid(), at.around);
           add_point(block, start, at.neighbours, 1.0);
         }
       }
       block.begin.push_back(static_cast<std::int32_t>(block.node.size()));
     }
+    list[b] = block;
   };
   voronoi::Fallbacks fallbacks;
   ParallelFailure failure;
@@ -168,7 +179,7 @@ FacetMeans facet_means(const Cloud<3>& cloud, const voronoi::Tetrahedra& mesh, v
       failure.guard(static_cast<std::ptrdiff_t>(b), [&] {
         if (!functions_here)
           functions_here.emplace(
-              FunctionsAt{voronoi::NaturalNeighbours3(cloud, mesh, function_mesh), Polygon(), {}});
+              FunctionsAt{voronoi::NaturalNeighbours3(cloud, mesh, *function_mesh), Polygon(), {}, {}});
         integrate(b, *functions_here);
       });
 #pragma omp critical
@@ -178,6 +189,12 @@ FacetMeans facet_means(const Cloud<3>& cloud, const voronoi::Tetrahedra& mesh, v
     }
   }
   failure.rethrow();
+  function_mesh.reset(); // before what comes of it
+  std::vector<Interface<3>> facet;
+  facet.reserve(items.size());
+  for (const Item& item : items)
+    facet.push_back({cells.rings.end[item.edge],
+                     item.triangle < 0 ? cells.normal[item.edge] : FanTriangle(cloud, cells, item).area()});
   return {std::move(facet), FaceMeans(std::move(list)), fallbacks};
 }
 

@@ -72,6 +72,7 @@ template<int dim> void ExplicitSolver<dim>::renew(Cloud<dim> cloud, const Resamp
   if (references_ > 0)
     require(model_.method->promises(), Promise::carried_history, model_.method->name(), "a new reference");
   Approximation<dim> rebuilt = model_.method->rebuild(cloud);
+  if constexpr (dim == 3) cloud.simplices = {}, cloud.across = {}; // before nodes move
   const std::optional<PointChange> points_change =
       references_ > 0 ? change_of_points(change, cloud, rebuilt.mechanics) : std::nullopt;
   Booked booked;

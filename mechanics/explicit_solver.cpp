@@ -142,6 +142,7 @@ template<int dim> void ExplicitSolver<dim>::assemble_forces(int activity) {
 template<int dim> typename ExplicitSolver<dim>::Step ExplicitSolver<dim>::stable_step() {
   StepLimit limit;
   each([&](Term<dim>& term) { term.limit(body(), limit); });
+  limit.critical_damping = critical_damping();
   if (!model_.mechanical) return {model_.safety * limit.heat, 0, "conduction"};
   const DiscreteOperators<dim>& op = approximation_->mechanics;
   const PointState<dim>& point = state_.point;
@@ -170,6 +171,12 @@ template<int dim> typename ExplicitSolver<dim>::Step ExplicitSolver<dim>::stable
   const auto bound =
       bound_.of_all(op, point.deformation, point.wave_modulus, state_.node.inertia(), conditions_.ties);
   return within(step_of(bound), 1, bound.point);
+}
+
+template<int dim> double ExplicitSolver<dim>::critical_damping() const {
+  double sum = 0.0;
+  each([&](const Term<dim>& term) { sum += term.critical_damping(); });
+  return sum;
 }
 
 template<int dim> Body<dim> ExplicitSolver<dim>::body() {

@@ -69,6 +69,8 @@ public:
   };
   static constexpr const char* elastic_waves = "elastic waves"; ///< what limits at a point
   Step stable_step();
+  /// –, ξ, the largest share of critical damping in the last step, by which the stable one is shorter.
+  double critical_damping() const;
   /// Step that mass scaling asks for, s; 0: none. That of cells of width h is one of ω = c/h, the largest
   /// frequency of natural elements on a square lattice, c the speed of waves in the fastest material.
   double wanted_step() const;

@@ -140,11 +140,13 @@ template<int dim> void SpectralBound<dim>::archive(Archive& archive) {
   archive.number("solver/stable_step/bound", "1/s^2", settled_);
 }
 
+double damped_step(double damping) { return std::sqrt(1.0 + damping * damping) - damping; }
+double damping_of_step(double share) { return 0.5 * (1.0 / share - share); }
+
 double stable_wave_step(double bound, double stabilisation, double viscosity_ratio) {
   const double omega2 = bound * (1.0 + stabilisation);
   if (omega2 == 0.0) return std::numeric_limits<double>::infinity();
-  const double damped = std::sqrt(1.0 + viscosity_ratio * viscosity_ratio) - viscosity_ratio;
-  return 2.0 / std::sqrt(omega2) * damped;
+  return 2.0 / std::sqrt(omega2) * damped_step(viscosity_ratio);
 }
 
 template class SpectralBound<2>;

@@ -56,6 +56,11 @@ private:
   Field image_;          ///< [point] A x
 };
 
+/// √(1 + ξ²) − ξ: what a share ξ of critical damping leaves of the stable step; and the ξ that leaves a
+/// share.
+double damped_step(double damping);
+double damping_of_step(double share);
+
 /// Δt ≤ 2/ω of elastic waves, s, from the bound on ω² with λ + 2μ (Pa) and masses (kg); infinite for 0.
 /// `stabilisation` is the factor α of the edge defect, which raises ω² by less than the fraction α.
 double stable_wave_step(double bound, double stabilisation, double viscosity_ratio);

@@ -4,6 +4,7 @@
 #include "voronoi/plane/natural_neighbours.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <fmt/format.h>
 #include <limits>
 
@@ -45,12 +46,27 @@ template<> PointWeights PointLocator<2>::weights(const Vec2& x) const {
 template<> PointWeights PointLocator<3>::weights(const Vec3& x) const {
   constexpr double outside = -0.05;
   const CellGeometry<3>& cells = structure_->cells;
+  // weights above `outside` that sum to 1 lead out of the box of the corners by a share of it
+  constexpr double beyond = -4.0 * outside;
+  const auto near = [&](const std::array<NodeIndex, 4>& corner) {
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      double low = cloud_.position[corner[0]][axis], high = low;
+      for (std::size_t k = 1; k < 4; ++k) {
+        low = std::min(low, cloud_.position[corner[k]][axis]);
+        high = std::max(high, cloud_.position[corner[k]][axis]);
+      }
+      const double margin = beyond * (high - low);
+      if (x[axis] < low - margin || x[axis] > high + margin) return false;
+    }
+    return true;
+  };
   PointWeights best{std::vector<NodeIndex>(4), std::vector<double>(4)};
   double depth = -std::numeric_limits<double>::infinity();
   for (std::size_t c = 0; c + 1 < cells.begin.size(); ++c) {
     std::array<NodeIndex, 4> corner;
     for (std::size_t k = 0; k < 4; ++k)
       corner[k] = cells.vertex_node[index_of(cells.index[index_of(cells.begin[c]) + k])];
+    if (!near(corner)) continue;
     const Vec3& first = cloud_.position[corner[0]];
     Mat<3> edges;
     for (std::size_t k = 1; k < 4; ++k)

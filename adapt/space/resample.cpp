@@ -114,10 +114,10 @@ struct NotRecovered {
   throw failure;
 }
 
-voronoi::RecoveredBoundary recovered_boundary(const Cloud<3>& cloud) {
+voronoi::RecoveredBoundary recovered_boundary(const WorkingBody& body) {
   try {
-    return voronoi::recover_boundary(cloud);
-  } catch (const GeometryError& error) { tell_places(cloud, error); }
+    return voronoi::recover_boundary(body.cloud(), {.sound = body.sound()});
+  } catch (const GeometryError& error) { tell_places(body.cloud(), error); }
 }
 
 using Corners = std::array<NodeIndex, 3>;
@@ -147,7 +147,9 @@ void restore_volume(WorkingBody& body, const IndexedVector<CloudFacetIndex, Face
   Field debt(body.size(), 0.0);
   for (const NodeIndex i : owing) debt[index_of(i)] = -gained / static_cast<double>(owing.size());
   give_back(surface, std::move(debt), body.node().size, rules.thresholds.surface.give_back);
+  const std::vector<CloudFacetIndex> moved = surface.changed_facets(body.cloud());
   for (const NodeIndex i : body.nodes()) body.place(i, surface.at(i));
+  if (voronoi::crossings(body.cloud(), moved).empty()) body.set_sound(); // as faces of tetrahedra have been
 }
 
 } // namespace
@@ -163,7 +165,7 @@ void remove(WorkingBody& body, SpaceStructure& structure, const std::vector<Remo
   voronoi::RecoveredBoundary recovered;
   constexpr int times = 3;
   for (int n = 0; n < times; ++n) {
-    recovered = recovered_boundary(left.cloud());
+    recovered = recovered_boundary(left);
     report.flipped += recovered.counts.flipped;
     for (NodeIndex& i : number)
       if (exists(i)) i = recovered.now[i];
@@ -185,9 +187,11 @@ void remove(WorkingBody& body, SpaceStructure& structure, const std::vector<Remo
   }
   structure = structure_of(recovered.cloud, std::move(recovered.tetrahedra), rules.cells);
   structure.held = recovered.counts.held;
+  structure.flipped = recovered.flipped;
   body.move(inheritance(body, structure, all, number));
   body.drop(gone);
   body.set_boundary(std::move(recovered.cloud.facets));
+  body.set_sound(); // facets are faces of tetrahedra
   endow(body, structure);
 }
 
@@ -246,16 +250,19 @@ struct Refined {
   RefinedSurface changes;
   Field size;
   PassReport report;
+  bool sound = true; ///< whether the facets are known not to cross each other
 };
 
+/// sound: whether those of the cloud are.
 Refined refined(const Cloud<3>& cloud, const NodeProperties& properties, const Field& size,
-                const SpaceRules& rules) {
+                const SpaceRules& rules, bool sound) {
   IndexedVector<NodeIndex, char> held = properties.held;
   const PeriodImages images(cloud, rules.periods);
   constexpr int most = 4;
   for (int n = 0;; ++n) {
     Refined result{WorkingSurface(cloud, held, rules.surface), {}, size, {}};
     if (n == most) {
+      result.sound = sound;
       result.changes.into.assign(cloud.position.size(), NodeIndex::none);
       ++result.report.undone;
       return result;
@@ -266,7 +273,8 @@ Refined refined(const Cloud<3>& cloud, const NodeProperties& properties, const F
     after.position = result.surface.position();
     after.facets = result.surface.facets();
     after.twins = cloud.twins;
-    const auto pairs = voronoi::crossings(after);
+    const auto pairs =
+        sound ? voronoi::crossings(after, result.surface.changed_facets(cloud)) : voronoi::crossings(after);
     if (pairs.empty()) return result;
     for (const auto& pair : pairs)
       for (const CloudFacetIndex f : pair) {
@@ -294,11 +302,12 @@ Refined refined(const Cloud<3>& cloud, const NodeProperties& properties, const F
   }
 }
 
-/// A pass whose surface has this spacing (m, [node]).
+/// A pass whose surface has this spacing (m, [node]). sound: whether that of the cloud is known not to cross
+/// itself.
 Resampling<3> attempt(const Cloud<3>& cloud, NodeProperties properties, const Field& size,
-                      const SpaceRules& rules, PassReport& report) {
+                      const SpaceRules& rules, bool sound, PassReport& report) {
   const SpaceThresholds& limits = rules.thresholds;
-  Refined first = refined(cloud, properties, size, rules);
+  Refined first = refined(cloud, properties, size, rules, sound);
   report += first.report;
   WorkingBody body(cloud, std::move(properties));
   const std::size_t old_nodes = body.size();
@@ -308,6 +317,7 @@ Resampling<3> attempt(const Cloud<3>& cloud, NodeProperties properties, const Fi
   }
   for (const NodeIndex i : body.nodes()) body.place(i, first.surface.at(i));
   body.set_boundary(first.surface.facets());
+  if (first.sound) body.set_sound();
 
   std::vector<Removal> list;
   for (const NodeIndex i : body.nodes())
@@ -320,10 +330,12 @@ Resampling<3> attempt(const Cloud<3>& cloud, NodeProperties properties, const Fi
   for (int round = 0; round < limits.rounds; ++round)
     if (!fill(body, structure, rules, report)) break;
   balance(body, structure, {limits.light, limits.heavy, limits.sweeps}, report);
-  Resampling<3> change = body.finish();
+  Resampling<3> change = body.finish(structure);
   if (structure.held > 0) { // whoever triangulates has to find a way to hold them too
     try {
-      voronoi::triangulate(change.cloud);
+      voronoi::Tetrahedra mesh = voronoi::triangulate(change.cloud);
+      change.cloud.simplices = std::move(mesh.node);
+      change.cloud.across = std::move(mesh.neighbour);
     } catch (const GeometryError& error) { tell_places(change.cloud, error); }
   }
   for (const Period& period : rules.periods) shifted_nodes(change.cloud, period); // throws where they are not
@@ -348,7 +360,8 @@ Resampling<3> resample(const Cloud<3>& present, NodeProperties properties, const
   for (const Period& period : rules.periods)
     rules.surface.still.insert(rules.surface.still.end(), period.begin(), period.end());
   align_periods(cloud, rules.periods, properties.size);
-  if (const auto pairs = voronoi::crossings(cloud); !pairs.empty()) {
+  const auto pairs = voronoi::crossings(cloud);
+  if (!pairs.empty()) {
     report.crossings += static_cast<int>(pairs.size());
     unfold(cloud, properties.held, properties.size, PeriodImages(cloud, rules.periods), rules.surface,
            report);
@@ -361,7 +374,7 @@ Resampling<3> resample(const Cloud<3>& present, NodeProperties properties, const
   for (int n = 1;; ++n) {
     PassReport tried = report;
     try {
-      Resampling<3> change = attempt(cloud, properties, size, rules, tried);
+      Resampling<3> change = attempt(cloud, properties, size, rules, pairs.empty(), tried);
       change.old_position = present.position;
       report = tried;
       report.volume_change += enclosed_measure(change.cloud) - enclosed_measure(present);

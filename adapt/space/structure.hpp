@@ -15,6 +15,7 @@ struct SpaceStructure {
   CellLists<NodeIndex> linked;        ///< ends of the edges of each node
   Field cell;                         ///< [node] m³
   int held = 0;                       ///< facets that the Delaunay triangulation does not have
+  bool flipped = false;               ///< as of voronoi::RecoveredBoundary
 
   double volume(NodeIndex i) const { return cell[index_of(i)]; }
   std::span<const NodeIndex> neighbours(NodeIndex i) const { return linked.of(i); }

@@ -1,7 +1,5 @@
 #include "adapt/space/working_body.hpp"
 
-#include "voronoi/order.hpp"
-
 #include <numeric>
 
 namespace cnem::adapt {
@@ -17,6 +15,14 @@ void WorkingBody::drop(const IndexedVector<NodeIndex, char>& gone) {
     for (NodeIndex& i : pair) i = number[i];
 }
 
-Resampling<3> WorkingBody::finish() const { return Matter::finished(cloud_); }
+Resampling<3> WorkingBody::finish(const SpaceStructure& structure) const {
+  Cloud<3> cloud = cloud_;
+  cloud.simplices = structure.mesh.node;
+  cloud.across = structure.mesh.neighbour;
+  Resampling<3> change = Matter::finished(cloud);
+  const bool renumbered = change.cloud.position != cloud_.position;
+  if (structure.flipped && renumbered) change.cloud.simplices = {}, change.cloud.across = {};
+  return change;
+}
 
 } // namespace cnem::adapt

@@ -1,6 +1,7 @@
 #pragma once
 // A cloud in space while it is being resampled: nodes come and go, and mass goes with them in parcels.
 #include "adapt/matter.hpp"
+#include "adapt/space/structure.hpp"
 #include "core/geometry/cloud.hpp"
 
 #include <array>
@@ -35,17 +36,28 @@ public:
     hold(made, held(i));
     return made;
   }
-  void place(NodeIndex i, const Vec3& x) { cloud_.position[i] = x; }
-  void set_boundary(IndexedVector<CloudFacetIndex, Facet<3>> facets) { cloud_.facets = std::move(facets); }
+  void place(NodeIndex i, const Vec3& x) {
+    cloud_.position[i] = x;
+    sound_ = false;
+  }
+  void set_boundary(IndexedVector<CloudFacetIndex, Facet<3>> facets) {
+    cloud_.facets = std::move(facets);
+    sound_ = false;
+  }
+  /// Whether facets are known not to cross each other; until one of them changes or moves.
+  bool sound() const { return sound_; }
+  void set_sound() { sound_ = true; }
 
   /// Drops nodes that have no matter left, and that no facet has; renumbers.
   void drop(const IndexedVector<NodeIndex, char>& gone);
 
-  /// Everything since construction, with the nodes in space-filling order when any came or went.
-  Resampling<3> finish() const;
+  /// Everything since construction, with the nodes in space-filling order when any came or went. The
+  /// tetrahedra of the structure go with the cloud where they are those that triangulating it gives.
+  Resampling<3> finish(const SpaceStructure& structure) const;
 
 private:
   Cloud<3> cloud_;
+  bool sound_ = false;
 };
 
 } // namespace cnem::adapt

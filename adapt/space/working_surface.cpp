@@ -13,7 +13,6 @@
 namespace cnem::adapt {
 
 using voronoi::next_edge;
-
 namespace {
 
 double cosine(double degrees) { return std::cos(degrees * std::numbers::pi / 180.0); }
@@ -380,6 +379,20 @@ IndexedVector<CloudFacetIndex, Facet<3>> WorkingSurface::facets() const {
   IndexedVector<CloudFacetIndex, Facet<3>> list;
   for (const Facet<3>& facet : facet_)
     if (exists(facet.node[0])) list.push_back(facet);
+  return list;
+}
+
+std::vector<CloudFacetIndex> WorkingSurface::changed_facets(const Cloud<3>& before) const {
+  std::vector<CloudFacetIndex> list;
+  CloudFacetIndex number{};
+  for (std::size_t f = 0; f < facet_.size(); ++f) {
+    if (!exists(facet_[f].node[0])) continue;
+    const auto stayed = [&](NodeIndex i) { return at(i) == before.position[i]; };
+    const auto& node = facet_[f].node;
+    const bool same = f < before.facets.size() && before.facets[f].node == node;
+    if (!same || !std::all_of(node.begin(), node.end(), stayed)) list.push_back(number);
+    number = as<CloudFacetIndex>(index_of(number) + 1);
+  }
   return list;
 }
 

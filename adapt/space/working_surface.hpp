@@ -118,6 +118,8 @@ public:
 
   /// The facets there are.
   IndexedVector<CloudFacetIndex, Facet<3>> facets() const;
+  /// Those of them that are not at the same places in the cloud that this surface was made of.
+  std::vector<CloudFacetIndex> changed_facets(const Cloud<3>& before) const;
 
 private:
   static Edge last_edge(Edge e) { return e % 3 == 0 ? e + 2 : e - 1; }

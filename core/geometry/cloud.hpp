@@ -34,9 +34,9 @@ template<int dim> struct Cloud {
   /// [facet] the facet of the other face at the same place or a period away, which runs the other way:
   /// resampling divides and joins both alike (core/geometry/mates.hpp). none: it has none; empty: none has.
   IndexedVector<CloudFacetIndex, CloudFacetIndex> mates{};
-  /// [simplex] nodes, right-handed. A list that filled the domain when the nodes were about where they are:
-  /// what triangulating begins with, and what comes of it does not depend on it. Empty: it begins with
-  /// nothing.
+  /// [simplex] nodes, right-handed. In the plane they filled the domain when nodes were about where they are:
+  /// triangulating begins with them. In space it came to them, with nodes and facets as they are now: who
+  /// changes these drops them. What comes of it does not depend on them. Empty: it begins with nothing.
   IndexedVector<SimplexIndex, std::array<NodeIndex, dim + 1>> simplices{};
   /// [simplex][k] the one across from its node k; none: not known, or a facet. Empty: none is known.
   IndexedVector<SimplexIndex, std::array<SimplexIndex, dim + 1>> across{};

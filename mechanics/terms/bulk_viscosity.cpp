@@ -46,7 +46,7 @@ namespace {
 template<int dim> class ViscousTerm : public Term<dim> {
 public:
   std::vector<Energy*> energies() override { return {&dissipated_}; }
-  void limit(const Body<dim>&, StepLimit& limit) override { limit.critical_damping += damping_; }
+  double critical_damping() const override { return damping_; }
   void archive(Archive& archive) override { archive.number("solver/viscosity_ratio", "1", damping_); }
   void begin_step(const Body<dim>&) override { damping_ = 0.0; }
   void begin_stress(const Body<dim>&, const DuePoints& due) override {

@@ -109,6 +109,8 @@ public:
   virtual std::vector<Metric> metrics(const BodyView<dim>&) const { return {}; }
   /// Its part in the limit of the step; it may change the wave moduli of points.
   virtual void limit(const Body<dim>&, StepLimit&) {}
+  /// What it adds to StepLimit::critical_damping, as the last step has left it.
+  virtual double critical_damping() const { return 0.0; }
   /// Adds rows of the stiffness of its bonds between nodes, [node] N/m^(3−dim) per m.
   virtual void stiffen(const Body<dim>&, Field&) {}
   /// Whatever else a checkpoint holds.

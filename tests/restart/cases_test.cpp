@@ -82,59 +82,50 @@ std::vector<std::string> run_with_few_pictures(const fs::path& input, const fs::
 }
 
 /// Runs a case with 1 and 7 threads, whole runs with 2, 3 and 4, too; in space, where a step takes longer,
-/// fewer steps with 1 and 3. Restarts have two threads (below).
+/// fewer steps with 1 and 3. Then the one with 1 loses what it wrote after its last checkpoint, some steps
+/// before its end, and is restarted with 2 (whole runs are not).
 void expect_same_bits(const fs::path& input, const std::string& isa,
                       const std::vector<std::string>& set = {}) {
   const testing::TemporaryFolder temporary("threads");
   const fs::path& folder = temporary.path();
-  const bool whole = std::getenv("CNEM_WHOLE_RUNS") != nullptr, few = is_in_space(input) && !whole;
+  const bool whole = std::getenv("CNEM_WHOLE_RUNS") != nullptr, few = is_in_space(input) && !whole,
+             of_steps = is_explicit(input),
+             restarts = !whole && (of_steps || is_of(input, input::Analysis::Type::milling) ||
+                                   is_of(input, input::Analysis::Type::removal));
   for (const int threads : {1, 2, 3, 4, 7}) {
     if (!whole && threads != 1 && threads != (few ? 3 : 7)) continue;
     const fs::path output = folder / fmt::format("{}", threads);
     std::vector<std::string> words = run_with_few_pictures(input, output, threads);
-    if (is_explicit(input) && !whole)
-      words.insert(words.end(), {"--set", fmt::format("time.max_steps={}", few ? 40 : 200)});
+    const int steps = few ? 40 : 200;
+    if (of_steps && !whole)
+      words.insert(words.end(),
+                   {"--set", fmt::format("time.max_steps={}", steps), "--set", "output.history_every=0 s",
+                    "--set", fmt::format("output.checkpoint.every_steps={}", steps * 5 / 12)});
+    else if (restarts)
+      words.insert(words.end(), {"--set", "output.checkpoint.every_steps=100"});
     words.insert(words.end(), set.begin(), set.end());
     const Ending ending = run_cnem(words, 0, {"CNEM_ISA=" + isa});
     ASSERT_EQ(ending.code, 0) << ending.printed;
     EXPECT_EQ(difference(folder / "1", output), "") << threads << " threads";
     if (threads > 1) fs::remove_all(output);
   }
+  if (!restarts) return;
+  fs::copy(folder / "1", folder / "restarted", fs::copy_options::recursive);
+  fs::remove(folder / "restarted" / results::files::status);
+  const Ending rest =
+      run_cnem({"restart", (folder / "restarted").string(), "--threads", "2"}, 0, {"CNEM_ISA=" + isa});
+  EXPECT_EQ(rest.code, 0) << rest.printed;
+  EXPECT_NE(rest.printed.find("going on from"), std::string::npos) << rest.printed;
+  EXPECT_EQ(difference(folder / "1", folder / "restarted"), "") << "restarted";
 }
 
 class Threads : public ::testing::TestWithParam<std::size_t> {};
 
-TEST_P(Threads, do_not_change_the_bits) {
+TEST_P(Threads, and_a_restart_do_not_change_the_bits) {
   expect_same_bits(all_cases()[GetParam()], std::string(isa_name(active_isa())));
 }
 INSTANTIATE_TEST_SUITE_P(Of, Threads, ::testing::Range(std::size_t{0}, all_cases().size()),
                          [](const auto& index) { return name_of(all_cases()[index.param]); });
-
-// A run that lost what it wrote last: its checkpoint is some steps older than its end.
-TEST_P(Threads, and_a_restart_do_not_change_the_bits) {
-  const fs::path& input = all_cases()[GetParam()];
-  const bool milling =
-      is_of(input, input::Analysis::Type::milling) || is_of(input, input::Analysis::Type::removal);
-  if (!is_explicit(input) && !milling) GTEST_SKIP() << "it has no checkpoints";
-  const testing::TemporaryFolder temporary("restarted");
-  const fs::path& folder = temporary.path();
-  std::vector<std::string> words = run_with_few_pictures(input, folder / "whole", 1);
-  const int steps = is_in_space(input) ? 30 : 60;
-  if (milling)
-    words.insert(words.end(), {"--set", "output.checkpoint.every_steps=100"});
-  else
-    words.insert(words.end(), {"--set", fmt::format("time.max_steps={}", steps), "--set",
-                               fmt::format("output.checkpoint.every_steps={}", steps * 5 / 12), "--set",
-                               "output.history_every=0 s"});
-  const Ending whole = run_cnem(words);
-  ASSERT_EQ(whole.code, 0) << whole.printed;
-  fs::copy(folder / "whole", folder / "restarted", fs::copy_options::recursive);
-  fs::remove(folder / "restarted" / results::files::status);
-  const Ending rest = run_cnem({"restart", (folder / "restarted").string(), "--threads", "2"});
-  EXPECT_EQ(rest.code, 0) << rest.printed;
-  EXPECT_NE(rest.printed.find("going on from"), std::string::npos) << rest.printed;
-  EXPECT_EQ(difference(folder / "whole", folder / "restarted"), "");
-}
 
 TEST(ThreadsWith, every_instruction_set_do_not_change_the_bits) {
   for (const Isa isa : {Isa::baseline, Isa::avx2, Isa::avx512})
@@ -151,7 +142,8 @@ TEST(ThreadsWith, pressure_exchange_do_not_change_the_bits) {
 TEST(ThreadsWith, new_references_do_not_change_the_bits) {
   expect_same_bits(fs::path(CNEM_SOURCE_DIR) / "cases/paper/shearing_sharp/case.toml",
                    std::string(isa_name(active_isa())),
-                   {"--set", "method.rereference.every=10", "--set", "time.max_steps=50"});
+                   {"--set", "method.rereference.every=10", "--set", "time.max_steps=50", "--set",
+                    "output.checkpoint.every_steps=20"});
 }
 
 } // namespace

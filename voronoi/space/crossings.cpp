@@ -136,4 +136,30 @@ std::vector<std::array<CloudFacetIndex, 2>> crossings(const Cloud<3>& cloud) {
   return found;
 }
 
+std::vector<std::array<CloudFacetIndex, 2>> crossings(const Cloud<3>& cloud,
+                                                      const std::vector<CloudFacetIndex>& suspects) {
+  std::vector<std::array<CloudFacetIndex, 2>> found;
+  if (suspects.empty()) return found;
+  const Pairs pairs(cloud);
+  IndexedVector<CloudFacetIndex, Box<3>> box;
+  for (const auto& facet : cloud.facets) box.push_back(box_of<3>(corners_of<3>(facet, cloud.position)));
+  enum Kind : std::uint8_t { sound, suspect, flat };
+  IndexedVector<CloudFacetIndex, std::uint8_t> kind(cloud.facets.size(), Kind::sound);
+  for (const CloudFacetIndex f : suspects) kind[f] = pairs.flat(f) ? Kind::flat : Kind::suspect;
+  for (const CloudFacetIndex f : suspects) {
+    if (kind[f] == Kind::flat) {
+      found.push_back({f, f});
+      continue;
+    }
+    for (const CloudFacetIndex g : cloud.facets.indices()) {
+      const bool other_pair = kind[g] == Kind::flat || (kind[g] == Kind::suspect && g <= f);
+      if (other_pair || !overlap(box[f], box[g])) continue;
+      const auto [low, high] = std::minmax(f, g);
+      if (pairs.cross(low, high)) found.push_back({low, high});
+    }
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
 } // namespace cnem::voronoi

@@ -13,4 +13,9 @@ namespace cnem::voronoi {
 /// (2002): O(F log² F).
 std::vector<std::array<CloudFacetIndex, 2>> crossings(const Cloud<3>& cloud);
 
+/// Those of them in which a suspect is, of a surface whose other facets are known not to cross each other.
+/// O(suspects · F).
+std::vector<std::array<CloudFacetIndex, 2>> crossings(const Cloud<3>& cloud,
+                                                      const std::vector<CloudFacetIndex>& suspects);
+
 } // namespace cnem::voronoi

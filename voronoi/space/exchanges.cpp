@@ -25,28 +25,33 @@ std::vector<FlipMesh::Nodes> key_of(std::vector<FlipMesh::Nodes> nodes) {
   return nodes;
 }
 
-Exchanges::Exchanges(const Cloud<3>& cloud, Delaunay& delaunay)
-    : mesh(cloud, delaunay), first_(delaunay.first) {
+SurfaceParts::SurfaceParts(const Cloud<3>& cloud, const IndexedVector<NodeIndex, NodeIndex>& first)
+    : first_(first), begin_(cloud.position.size() + 2, 0), faces_(2 * cloud.facets.size()) {
   for (const auto& facet : cloud.facets) {
     const Face face = at_first(facet);
-    facets_.push_back(face);
-    for (std::size_t k = 0; k < 3; ++k) edges_.push_back(edge_of(face[k], face[(k + 1) % 3]));
+    for (const NodeIndex i : {face[0], face[1]}) ++begin_[index_of(i) + 2];
   }
-  std::sort(facets_.begin(), facets_.end());
-  std::sort(edges_.begin(), edges_.end());
-  edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
+  for (std::size_t i = 2; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
+  for (const auto& facet : cloud.facets) {
+    const Face face = at_first(facet);
+    for (const NodeIndex i : {face[0], face[1]}) faces_[begin_[index_of(i) + 1]++] = face;
+  }
 }
 
-Face Exchanges::at_first(const Facet<3>& facet) const {
+Face SurfaceParts::at_first(const Facet<3>& facet) const {
   return face_of(first_[facet.node[0]], first_[facet.node[1]], first_[facet.node[2]]);
 }
 
-bool Exchanges::is_edge(const Edge& edge) const {
-  return std::binary_search(edges_.begin(), edges_.end(), edge);
+bool SurfaceParts::is_edge(const Edge& edge) const {
+  const auto faces = at(edge.first);
+  return std::any_of(faces.begin(), faces.end(), [&](const Face& face) {
+    return std::find(face.begin(), face.end(), edge.second) != face.end();
+  });
 }
 
-bool Exchanges::is_facet(const Face& face) const {
-  return std::binary_search(facets_.begin(), facets_.end(), face);
+bool SurfaceParts::is_facet(const Face& face) const {
+  const auto faces = at(face[0]);
+  return std::find(faces.begin(), faces.end(), face) != faces.end();
 }
 
 std::vector<FlipMesh::Nodes> Exchanges::nodes_of(const std::vector<SimplexIndex>& tetrahedra) const {
@@ -57,8 +62,8 @@ std::vector<FlipMesh::Nodes> Exchanges::nodes_of(const std::vector<SimplexIndex>
 
 void Exchanges::add_removals(const Edge& edge, std::vector<Exchange>& exchanges) {
   const NodeIndex d = edge.first, e = edge.second;
-  if (is_edge(edge)) return;
-  const SimplexIndex start = mesh.with(d, e);
+  if (surface_.is_edge(edge)) return;
+  const SimplexIndex start = mesh.stars().with(d, e);
   if (!exists(start)) return;
   const FlipMesh::Ring ring = mesh.ring(d, e, start);
   const std::size_t n = ring.around.size();
@@ -103,8 +108,8 @@ void Exchanges::add_removals(const Edge& edge, std::vector<Exchange>& exchanges)
 }
 
 void Exchanges::add_split(const Face& face, std::vector<Exchange>& exchanges) {
-  if (is_facet(face)) return;
-  const SimplexIndex t = mesh.with(face[0], face[1], face[2]);
+  if (surface_.is_facet(face)) return;
+  const SimplexIndex t = mesh.stars().with(face[0], face[1], face[2]);
   if (!exists(t)) return;
   std::size_t k = 0;
   while (std::find(face.begin(), face.end(), mesh.nodes(t)[k]) != face.end()) ++k;

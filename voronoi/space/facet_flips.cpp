@@ -20,16 +20,17 @@ using Nodes = FlipMesh::Nodes;
 
 constexpr std::uint64_t most_orders = 6; ///< in which lost facets are brought back
 
-class Holder {
-public:
-  Holder(const Cloud<3>& cloud, Delaunay& mesh)
-      : exchanges_(cloud, mesh), mesh_(exchanges_.mesh), cloud_(cloud) {}
+bool has(Stars& stars, const Edge& e) { return exists(stars.with(e.first, e.second)); }
+bool has(Stars& stars, const Face& f) { return exists(stars.with(f[0], f[1], f[2])); }
 
-  void hold(const std::vector<CloudFacetIndex>& lost, std::uint64_t order) {
-    std::vector<Edge> edges;
-    std::vector<Face> facets;
+/// Edges and facets that are to be brought into the tetrahedra.
+struct Wanted {
+  std::vector<Edge> edges;
+  std::vector<Face> facets;
+
+  Wanted(const Cloud<3>& cloud, const SurfaceParts& surface, const std::vector<CloudFacetIndex>& lost) {
     for (const CloudFacetIndex f : lost) {
-      facets.push_back(exchanges_.at_first(cloud_.facets[f]));
+      facets.push_back(surface.at_first(cloud.facets[f]));
       for (std::size_t k = 0; k < 3; ++k)
         edges.push_back(edge_of(facets.back()[k], facets.back()[(k + 1) % 3]));
     }
@@ -37,22 +38,47 @@ public:
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
     std::sort(facets.begin(), facets.end());
     facets.erase(std::unique(facets.begin(), facets.end()), facets.end());
-    if (order > 0) {
-      std::mt19937_64 random(order);
-      const auto shuffle = [&](auto& list) {
-        for (std::size_t n = list.size(); n > 1; --n) std::swap(list[n - 1], list[random() % n]);
-      };
-      shuffle(edges);
-      shuffle(facets);
-    }
+  }
+
+  Wanted in_order(std::uint64_t order) const {
+    Wanted other = *this;
+    if (order == 0) return other;
+    std::mt19937_64 random(order);
+    const auto shuffle = [&](auto& list) {
+      for (std::size_t n = list.size(); n > 1; --n) std::swap(list[n - 1], list[random() % n]);
+    };
+    shuffle(other.edges);
+    shuffle(other.facets);
+    return other;
+  }
+
+  /// Those that some tetrahedra lack.
+  Wanted missing(Stars& stars) const {
+    Wanted left = *this;
+    std::erase_if(left.edges, [&](const Edge& e) { return has(stars, e); });
+    std::erase_if(left.facets, [&](const Face& f) { return has(stars, f); });
+    return left;
+  }
+
+  auto operator<=>(const Wanted&) const = default;
+};
+
+class Holder {
+public:
+  Holder(const Cloud<3>& cloud, const SurfaceParts& surface, Delaunay& mesh)
+      : exchanges_(cloud, surface, mesh), mesh_(exchanges_.mesh) {}
+
+  void hold(Wanted wanted) {
+    auto& [edges, facets] = wanted;
     for (int round = 0; round < 3; ++round) {
       const std::size_t left = edges.size() + facets.size();
       std::erase_if(edges, [&](const Edge& e) { return bring(e); });
       std::erase_if(facets, [&](const auto& f) { return bring(f); });
       if (edges.size() + facets.size() == left) break;
     }
-    mesh_.finish();
   }
+
+  FlipMesh& mesh() { return mesh_; }
 
 private:
   /// What stands in the way of an edge or a facet.
@@ -63,14 +89,13 @@ private:
     int measure() const { return static_cast<int>(8 * faces.size() + 6 * edges.size() + tetrahedra.size()); }
   };
 
-  bool is_there(const Edge& e) { return exists(mesh_.with(e.first, e.second)); }
-  bool is_there(const Face& f) { return exists(mesh_.with(f[0], f[1], f[2])); }
+  template<class Target> bool is_there(const Target& target) { return has(mesh_.stars(), target); }
 
   /// Faces and edges that the open segment between two nodes passes.
   Crossings crossings(const Edge& edge) {
     const auto [a, b] = edge;
     Crossings found;
-    std::vector<SimplexIndex> list = mesh_.star(a);
+    std::vector<SimplexIndex> list = mesh_.stars().of(a);
     const auto add = [&](SimplexIndex t) {
       if (std::find(list.begin(), list.end(), t) == list.end()) list.push_back(t);
     };
@@ -124,7 +149,7 @@ private:
   /// Edges that pass the inside of a triangle whose edges are there.
   Crossings crossings(const Face& facet) {
     Crossings found;
-    std::vector<SimplexIndex> list = mesh_.star(facet[0]);
+    std::vector<SimplexIndex> list = mesh_.stars().of(facet[0]);
     for (std::size_t n = 0; n < list.size(); ++n) {
       const SimplexIndex t = list[n];
       const Nodes node = mesh_.nodes(t);
@@ -151,7 +176,7 @@ private:
       for (std::size_t k = 0; k < 3; ++k) edges.push_back(edge_of(face[k], face[(k + 1) % 3]));
     for (const Edge& edge : crossings.edges)
       for (const NodeIndex i :
-           mesh_.ring(edge.first, edge.second, mesh_.with(edge.first, edge.second)).around)
+           mesh_.ring(edge.first, edge.second, mesh_.stars().with(edge.first, edge.second)).around)
         faces.push_back(face_of(edge.first, edge.second, i));
     for (const SimplexIndex t : crossings.tetrahedra) {
       if (!wide) break;
@@ -230,7 +255,6 @@ private:
 
   Exchanges exchanges_;
   FlipMesh& mesh_;
-  const Cloud<3>& cloud_;
 };
 
 } // namespace
@@ -238,12 +262,22 @@ private:
 Walls hold_facets(const Cloud<3>& cloud, Delaunay& mesh, Walls walls) {
   if (walls.lost.empty()) return walls;
   refuse_crossings(cloud, walls.lost);
+  const SurfaceParts surface(cloud, mesh.first);
+  const Wanted wanted(cloud, surface, walls.lost);
+  Stars stars(mesh);
   Delaunay best;
   std::size_t least = walls.lost.size() + 1;
+  std::set<Wanted> tried; // orders that differ in what is there already lead to the same
   for (std::uint64_t order = 0; order < most_orders && least > 0; ++order) {
+    const Wanted next = wanted.in_order(order);
+    if (!tried.insert(next.missing(stars)).second) continue;
     Delaunay flipped = mesh;
-    Holder(cloud, flipped).hold(walls.lost, order);
-    const std::size_t left = find_walls(cloud, flipped).lost.size();
+    Holder holder(cloud, surface, flipped);
+    holder.hold(next);
+    std::size_t left = 0; // facets that were there still are
+    for (const CloudFacetIndex f : walls.lost)
+      left += !has(holder.mesh().stars(), surface.at_first(cloud.facets[f]));
+    holder.mesh().finish();
     if (left < least) least = left, best = std::move(flipped);
   }
   mesh = std::move(best);

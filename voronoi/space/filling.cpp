@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cassert>
 #include <fmt/format.h>
+#include <utility>
 
 namespace cnem::voronoi {
 
@@ -112,15 +113,30 @@ Tetrahedra numbered(const Cloud<3>& cloud, const Delaunay& mesh, const Walls& wa
 
 } // namespace
 
-Tetrahedra filling(const Cloud<3>& cloud, Delaunay mesh) {
-  Walls walls = hold_facets(cloud, mesh, find_walls(cloud, mesh));
+Filling filling(const Cloud<3>& cloud, Delaunay mesh) {
+  Walls walls = find_walls(cloud, mesh);
+  const bool lost = !walls.lost.empty();
+  if (lost) walls = hold_facets(cloud, mesh, std::move(walls));
   if (!walls.lost.empty()) throw_lost(cloud, walls.lost);
+  Filling result = filling(cloud, std::move(mesh), std::move(walls));
+  result.flipped = result.flipped || lost;
+  return result;
+}
+
+Filling filling(const Cloud<3>& cloud, Delaunay mesh, Walls walls) {
+  assert(walls.lost.empty());
   auto inside = inside_of_walls(cloud, mesh, walls);
-  if (exchange_flat(cloud, mesh, inside)) {
+  const bool flipped = exchange_flat(cloud, mesh, inside);
+  if (flipped) {
     walls = find_walls(cloud, mesh);
     inside = inside_of_walls(cloud, mesh, walls);
   }
-  return numbered(cloud, mesh, walls, inside);
+  return {numbered(cloud, mesh, walls, inside), flipped};
+}
+
+Tetrahedra in_order(const Cloud<3>& cloud, const Delaunay& inside) {
+  const IndexedVector<SimplexIndex, std::uint8_t> all(inside.node.size(), 1);
+  return numbered(cloud, inside, find_walls(cloud, inside), all);
 }
 
 } // namespace cnem::voronoi

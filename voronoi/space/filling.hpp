@@ -4,10 +4,21 @@
 
 namespace cnem::voronoi {
 
+struct Filling {
+  Tetrahedra tetrahedra;
+  bool flipped =
+      false; ///< whether there are others than Delaunay's: which ones the numbers of nodes may tell
+};
+
 /// Of a cloud whose surface is one and its Delaunay triangulation, which is flipped where it lacks facets:
 /// tetrahedra from their lowest node on, in the order of their nodes. O(N). Throws GeometryError, naming
 /// nodes, as triangulate().
-Tetrahedra filling(const Cloud<3>& cloud, Delaunay mesh);
+Filling filling(const Cloud<3>& cloud, Delaunay mesh);
+/// The same of tetrahedra that have all facets, with their walls: `flipped` tells of those that are flat
+/// alone.
+Filling filling(const Cloud<3>& cloud, Delaunay mesh, Walls walls);
+/// Tetrahedra that are those inside already, in the same order.
+Tetrahedra in_order(const Cloud<3>& cloud, const Delaunay& inside);
 
 /// Whether a corner is so near the plane of the others that rounding decides on which side.
 bool is_flat(const std::array<Vec3, 4>& corner);

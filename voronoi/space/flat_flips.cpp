@@ -15,7 +15,8 @@ namespace {
 
 class Flattened {
 public:
-  Flattened(const Cloud<3>& cloud, Delaunay& mesh) : cloud_(cloud), exchanges_(cloud, mesh) {}
+  Flattened(const Cloud<3>& cloud, Delaunay& mesh)
+      : cloud_(cloud), surface_(cloud, mesh.first), exchanges_(cloud, surface_, mesh) {}
 
   /// A flat one that cannot be exchanged waits until others have been.
   void improve(std::vector<SimplexIndex> flat) {
@@ -52,7 +53,7 @@ private:
       if (is_flat(x)) {
         int facets = 0;
         for (const auto& [a, b, c] : face_of_tetrahedron)
-          facets += exchanges_.is_facet(face_of(node[a], node[b], node[c]));
+          facets += surface_.is_facet(face_of(node[a], node[b], node[c]));
         result.first += facets > 1 ? 100 : 1; // between two facets it would stay
         continue;
       }
@@ -97,6 +98,7 @@ private:
   std::vector<SimplexIndex> flat_;               ///< made by the last exchange
   static constexpr int most_rounds = 10;
   const Cloud<3>& cloud_;
+  SurfaceParts surface_;
   Exchanges exchanges_;
 };
 

@@ -31,43 +31,10 @@ std::array<NodeIndex, 2> others(const FlipMesh::Nodes& node, NodeIndex d, NodeIn
 
 } // namespace
 
-FlipMesh::FlipMesh(const Cloud<3>& cloud, Delaunay& mesh)
-    : cloud_(cloud), mesh_(mesh), of_node_(cloud.position.size(), SimplexIndex::none),
-      seen_(mesh.node.size(), 0) {
-  for (const SimplexIndex t : mesh.node.indices())
-    for (const NodeIndex i : mesh.node[t]) of_node_[i] = t;
-}
+FlipMesh::FlipMesh(const Cloud<3>& cloud, Delaunay& mesh) : cloud_(cloud), mesh_(mesh), stars_(mesh) {}
 
 int FlipMesh::sign(NodeIndex a, NodeIndex b, NodeIndex c, NodeIndex d) const {
   return orientation(at(a), at(b), at(c), at(d));
-}
-
-const std::vector<SimplexIndex>& FlipMesh::star(NodeIndex node) {
-  ++round_;
-  star_.assign(1, of_node_[node]);
-  seen_[star_[0]] = round_;
-  for (std::size_t n = 0; n < star_.size(); ++n) {
-    const SimplexIndex t = star_[n];
-    for (std::size_t k = 0; k < 4; ++k) {
-      const SimplexIndex next = mesh_.neighbour[t][k];
-      if (mesh_.node[t][k] == node || !exists(next) || seen_[next] == round_) continue;
-      seen_[next] = round_;
-      star_.push_back(next);
-    }
-  }
-  return star_;
-}
-
-SimplexIndex FlipMesh::with(NodeIndex a, NodeIndex b) {
-  for (const SimplexIndex t : star(a))
-    if (contains(mesh_.node[t], b)) return t;
-  return SimplexIndex::none;
-}
-
-SimplexIndex FlipMesh::with(NodeIndex a, NodeIndex b, NodeIndex c) {
-  for (const SimplexIndex t : star(a))
-    if (contains(mesh_.node[t], b) && contains(mesh_.node[t], c)) return t;
-  return SimplexIndex::none;
 }
 
 FlipMesh::Ring FlipMesh::ring(NodeIndex d, NodeIndex e, SimplexIndex start) const {
@@ -122,7 +89,6 @@ std::vector<SimplexIndex> FlipMesh::replace(std::span<const SimplexIndex> old, s
     if (gaps_.empty()) {
       mesh_.node.push_back(node);
       mesh_.neighbour.emplace_back();
-      seen_.push_back(0);
     } else {
       t = gaps_.back();
       gaps_.pop_back();
@@ -130,7 +96,7 @@ std::vector<SimplexIndex> FlipMesh::replace(std::span<const SimplexIndex> old, s
     }
     mesh_.neighbour[t].fill(SimplexIndex::none);
     made.push_back(t);
-    for (const NodeIndex i : node) of_node_[i] = t;
+    stars_.placed(t);
     for (std::size_t k = 0; k < 4; ++k) {
       const auto face = sorted_face(node, k);
       const auto other =

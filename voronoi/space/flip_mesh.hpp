@@ -1,9 +1,8 @@
 #pragma once
 // Tetrahedra that are exchanged for others in the same hole.
-#include "voronoi/space/delaunay.hpp"
+#include "voronoi/space/stars.hpp"
 #include "voronoi/space/tetrahedra.hpp"
 
-#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -29,11 +28,8 @@ public:
   const std::array<SimplexIndex, 4>& neighbours(SimplexIndex t) const { return mesh_.neighbour[t]; }
   int sign(NodeIndex a, NodeIndex b, NodeIndex c, NodeIndex d) const;
 
-  /// All tetrahedra that have the node; valid until the next call.
-  const std::vector<SimplexIndex>& star(NodeIndex node);
-  /// One that has both, or all three; none: none has.
-  SimplexIndex with(NodeIndex a, NodeIndex b);
-  SimplexIndex with(NodeIndex a, NodeIndex b, NodeIndex c);
+  /// Who has a node.
+  Stars& stars() { return stars_; }
   Ring ring(NodeIndex d, NodeIndex e, SimplexIndex start) const;
 
   /// Puts right-handed tetrahedra that fill the same hole in the place of others; the new ones.
@@ -45,14 +41,8 @@ public:
 private:
   const Cloud<3>& cloud_;
   Delaunay& mesh_;
-  IndexedVector<NodeIndex, SimplexIndex> of_node_;
-  std::vector<SimplexIndex> gaps_, star_;
-  IndexedVector<SimplexIndex, std::uint32_t> seen_;
-  std::uint32_t round_ = 0;
+  Stars stars_;
+  std::vector<SimplexIndex> gaps_;
 };
-
-inline bool contains(const FlipMesh::Nodes& nodes, NodeIndex i) {
-  return nodes[0] == i || nodes[1] == i || nodes[2] == i || nodes[3] == i;
-}
 
 } // namespace cnem::voronoi

@@ -30,8 +30,10 @@ std::vector<std::uint8_t> on_surface(const Cloud<3>& cloud) {
 class Recovery {
 public:
   Recovery(const Cloud<3>& cloud, const RecoveryRules& rules)
-      : rules_(rules), fixed_(cloud.position.size(), 0) {
+      : rules_(rules), fixed_(cloud.position.size(), 0), sound_(rules.sound) {
     result_.cloud = cloud;
+    result_.cloud.simplices.clear();
+    result_.cloud.across.clear();
     result_.now.resize(cloud.position.size());
     for (const NodeIndex i : result_.now.indices()) result_.now[i] = i;
   }
@@ -46,6 +48,7 @@ public:
       walls = find_walls(cloud, mesh);
       return !walls.lost.empty();
     });
+    sound_ = sound_ || walls.lost.empty(); // faces of tetrahedra do not cross
     counts.lost = as<int>(walls.lost.size());
     for (int round = 0;; ++round) {
       if (round == most_rounds)
@@ -53,24 +56,29 @@ public:
                                         describe_facet(cloud, walls.lost.front()), most_rounds));
       const bool flips_help = round < most_flipping; // else they go round in a circle
       if (!walls.lost.empty() && flips_help) {
-        counts.flipped += fit(mesh, rules_.flat_angle);
-        walls = find_walls(cloud, mesh);
+        const int flips = fit(mesh, walls.lost, rules_.flat_angle);
+        counts.flipped += flips;
+        if (flips > 0) walls = find_walls(cloud, mesh);
       }
       peel(mesh, walls);
       if (walls.lost.empty()) {
         counts.held = 0;
-        break;
+        return finish(filling(cloud, std::move(mesh), std::move(walls)));
       }
       Delaunay flipped = mesh;
       counts.held = as<int>(walls.lost.size());
       walls = hold_facets(cloud, flipped, std::move(walls));
       const bool peeled = peel(flipped, walls);
       if (walls.lost.empty()) {
-        if (!peeled || holds(mesh)) break;
+        if (peeled) { // triangulating the cloud anew has to hold its facets
+          flipped = mesh;
+          walls = hold_facets(cloud, flipped, find_walls(cloud, flipped));
+        }
+        if (walls.lost.empty()) return finish(filling(cloud, std::move(flipped), std::move(walls)));
         walls = find_walls(cloud, mesh);
         continue;
       }
-      if (const int flips = flips_help ? fit(flipped, rules_.smooth_angle) : 0) {
+      if (const int flips = flips_help ? fit(flipped, walls.lost, rules_.smooth_angle) : 0) {
         counts.flipped += flips;
       } else if (remove_near(walls.lost)) {
         mesh = delaunay(cloud);
@@ -79,38 +87,49 @@ public:
       }
       walls = find_walls(cloud, mesh);
     }
-    if (!cloud.mates.empty()) cloud.mates = facets_behind(cloud);
-    result_.tetrahedra = filling(cloud, std::move(mesh));
-    return std::move(result_);
+    return finish(filling(cloud, std::move(mesh)));
   }
 
 private:
+  RecoveredBoundary finish(Filling filling) {
+    Cloud<3>& cloud = result_.cloud;
+    if (!cloud.mates.empty()) cloud.mates = facets_behind(cloud);
+    result_.tetrahedra = std::move(filling.tetrahedra);
+    result_.flipped = filling.flipped || result_.counts.held > 0;
+    return std::move(result_);
+  }
+
   /// Flips edges of the surface, and where it may cross itself and does so again without those there: of two
   /// sides of a body that nearly touch one may have been pushed through the other.
   template<class Flips> void without_crossings(const Flips& flips_that_may_cross) {
     constexpr int most = 4;
     const auto before = result_.cloud.facets;
-    for (int n = 1; flips_that_may_cross() && mark_crossings(); ++n) {
+    for (int n = 1; flips_that_may_cross() && mark_crossings(before); ++n) {
       if (n == most) std::fill(fixed_.begin(), fixed_.end(), 1); // on planes alone, everywhere
       result_.cloud.facets = before;
     }
   }
 
-  int fit(const Delaunay& mesh, double angle) {
+  int fit(const Delaunay& mesh, const std::vector<CloudFacetIndex>& lost, double angle) {
     int flips = 0;
-    without_crossings([&] { return (flips = fit_surface(result_.cloud, mesh, angle, fixed_)) > 0; });
+    without_crossings([&] { return (flips = fit_surface(result_.cloud, mesh, lost, angle, fixed_)) > 0; });
     return flips;
   }
 
   /// Fixes the nodes of facets that cross each other now. Whether there are any that were not fixed.
-  bool mark_crossings() {
+  bool mark_crossings(const IndexedVector<CloudFacetIndex, Facet<3>>& before) {
+    std::vector<CloudFacetIndex> turned;
+    for (const CloudFacetIndex f : before.indices())
+      if (before[f].node != result_.cloud.facets[f].node) turned.push_back(f);
+    const auto pairs = sound_ ? crossings(result_.cloud, turned) : crossings(result_.cloud);
     bool any = false;
-    for (const auto& pair : crossings(result_.cloud))
+    for (const auto& pair : pairs)
       for (const CloudFacetIndex f : pair)
         for (const NodeIndex i : result_.cloud.facets[f].node) {
           any = any || !fixed_[i];
           fixed_[i] = 1;
         }
+    if (!any) sound_ = pairs.empty();
     return any;
   }
 
@@ -120,14 +139,10 @@ private:
       const int flips = peel_flat(result_.cloud, mesh, walls, rules_.flat_angle);
       if (flips == 0) return layer > 0;
       result_.counts.flipped += flips;
+      sound_ = false;
       walls = find_walls(result_.cloud, mesh);
     }
     return true;
-  }
-
-  /// Whether triangulating the cloud anew holds its facets.
-  bool holds(Delaunay mesh) const {
-    return hold_facets(result_.cloud, mesh, find_walls(result_.cloud, mesh)).lost.empty();
   }
 
   /// Takes the boundary of the tetrahedra inside for the surface, if that is a manifold with the same nodes.
@@ -143,6 +158,7 @@ private:
       result_.counts.replaced = adopted.replaced;
     } catch (const GeometryError&) { return false; }
     cloud = std::move(candidate);
+    sound_ = false;
     return true;
   }
 
@@ -179,8 +195,6 @@ private:
       }
     cloud.position = std::move(kept);
     fixed_ = std::move(fixed);
-    cloud.simplices.clear();
-    cloud.across.clear();
     for (auto& facet : cloud.facets)
       for (NodeIndex& i : facet.node) i = number[i];
     for (auto& pair : cloud.twins)
@@ -195,6 +209,7 @@ private:
 
   RecoveryRules rules_;
   FixedNodes fixed_; ///< [node of the cloud now]
+  bool sound_;       ///< whether facets are known not to cross each other
   RecoveredBoundary result_;
 };
 

@@ -8,7 +8,8 @@ namespace cnem::voronoi {
 struct RecoveryRules {
   double flat_angle = 0.2443; ///< rad (14°): facets of one piece whose normals are that near may be flipped
   double smooth_angle =
-      0.7; ///< rad (40°): the same for facets that nothing else brings back; creases are sharper
+      0.7;            ///< rad (40°): the same for facets that nothing else brings back; creases are sharper
+  bool sound = false; ///< whether the facets are known not to cross each other
 };
 
 /// What a recovery has done.
@@ -25,6 +26,7 @@ struct RecoveredBoundary {
   Tetrahedra tetrahedra;
   IndexedVector<NodeIndex, NodeIndex> now; ///< [node of the old cloud] its number; none: it is gone
   RecoveryCounts counts;
+  bool flipped = false; ///< whether there are others than Delaunay's among the tetrahedra (filling.hpp)
 };
 
 /// The cheapest first: (1) Lawson's flips of the surface within named pieces, and flips to diagonals that the

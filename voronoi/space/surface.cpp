@@ -1,7 +1,7 @@
 #include "voronoi/space/surface.hpp"
 
 #include "core/error.hpp"
-#include "core/geometry/box_tree.hpp"
+#include "core/geometry/box.hpp"
 #include "core/geometry/facets.hpp"
 #include "core/geometry/place_text.hpp"
 #include "core/index.hpp"
@@ -31,44 +31,48 @@ void check_lists(const Cloud<3>& cloud) {
   }
 }
 
-/// Edges as pairs: of each edge, the one that runs the other way. Facets are found by the lower end of an
-/// edge.
+/// Edges as pairs: of each edge, the one that runs the other way. They are found by their lower end.
 SurfaceEdges paired_edges(const Cloud<3>& cloud) {
-  const auto ends = [&](SurfaceEdge e) {
-    const auto& node = cloud.facets[facet_of(e)].node;
-    return std::array{node[place_of(e)], node[(place_of(e) + 1) % 3]};
+  struct AtLower {
+    NodeIndex higher;
+    SurfaceEdge edge;
+    bool up; ///< from the lower end
   };
-  const std::size_t edges = 3 * cloud.facets.size();
+  const auto ends = [&](CloudFacetIndex f, std::size_t k) {
+    const auto& node = cloud.facets[f].node;
+    return std::array{node[k], node[(k + 1) % 3]};
+  };
   std::vector<std::uint32_t> begin(cloud.position.size() + 2, 0);
-  for (std::size_t e = 0; e < edges; ++e) {
-    const auto [a, b] = ends(as<SurfaceEdge>(e));
-    ++begin[index_of(std::min(a, b)) + 2];
-  }
+  for (const CloudFacetIndex f : cloud.facets.indices())
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [a, b] = ends(f, k);
+      ++begin[index_of(std::min(a, b)) + 2];
+    }
   for (std::size_t i = 2; i < begin.size(); ++i) begin[i] += begin[i - 1];
-  std::vector<SurfaceEdge> of_lower(edges);
-  for (std::size_t e = 0; e < edges; ++e) {
-    const auto [a, b] = ends(as<SurfaceEdge>(e));
-    of_lower[begin[index_of(std::min(a, b)) + 1]++] = as<SurfaceEdge>(e);
-  }
+  std::vector<AtLower> entry(3 * cloud.facets.size());
+  for (const CloudFacetIndex f : cloud.facets.indices())
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [a, b] = ends(f, k);
+      entry[begin[index_of(std::min(a, b)) + 1]++] = {std::max(a, b), edge_at(f, k), a < b};
+    }
   SurfaceEdges across(cloud.facets.size(), {no_edge, no_edge, no_edge});
   for (const CloudFacetIndex f : cloud.facets.indices())
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto [a, b] = ends(edge_at(f, k));
+      const auto [a, b] = ends(f, k);
       SurfaceEdge found = no_edge;
       const auto edge_text = [&, a = a, b = b] {
         return fmt::format("the edge from {} to {}", describe_node(cloud, a), describe_node(cloud, b));
       };
       const std::size_t lower = index_of(std::min(a, b));
       for (std::uint32_t q = begin[lower]; q < begin[lower + 1]; ++q) {
-        const SurfaceEdge other = of_lower[q];
-        const auto [c, d] = ends(other);
-        if (other == edge_at(f, k) || std::max(c, d) != std::max(a, b)) continue;
-        if (c == a)
+        const AtLower& other = entry[q];
+        if (other.higher != std::max(a, b) || other.edge == edge_at(f, k)) continue;
+        if (other.up == (a < b))
           throw GeometryError(fmt::format(
               "{} and facet {} run along {} in the same direction: expected a surface that does not branch, "
               "with all normals outwards (inside out?)",
-              describe_facet(cloud, f), index_of(facet_of(other)), edge_text()));
-        found = other; // a third one would run as one of the two
+              describe_facet(cloud, f), index_of(facet_of(other.edge)), edge_text()));
+        found = other.edge; // a third one would run as one of the two
       }
       if (found == no_edge)
         throw GeometryError(fmt::format("open surface: {} has no other side at {}, expected a closed surface",
@@ -110,6 +114,8 @@ int side(const Cloud<3>& cloud, const std::array<NodeIndex, 3>& facet, NodeIndex
 
 /// Whether the segment from p to q passes through the inside of the triangle or of one of its edges.
 bool pierces(const Cloud<3>& cloud, NodeIndex p, NodeIndex q, const std::array<NodeIndex, 3>& triangle) {
+  for (const NodeIndex corner : triangle)
+    if (corner == p || corner == q) return false; // it is on the plane
   if (side(cloud, triangle, p) * side(cloud, triangle, q) >= 0) return false;
   int turns[3];
   for (std::size_t k = 0; k < 3; ++k) turns[k] = side(cloud, {p, q, triangle[k]}, triangle[(k + 1) % 3]);
@@ -168,20 +174,15 @@ IndexedVector<CloudFacetIndex, CloudFacetIndex> facets_behind(const Cloud<3>& cl
 }
 
 void refuse_crossings(const Cloud<3>& cloud, const std::vector<CloudFacetIndex>& suspects) {
-  const auto box = [&](CloudFacetIndex f) {
-    return box_of<3>(corners_of<3>(cloud.facets[f], cloud.position));
-  };
-  std::vector<Box<3>> boxes;
-  for (const CloudFacetIndex f : cloud.facets.indices()) boxes.push_back(box(f));
-  const BoxTree tree(std::move(boxes));
+  IndexedVector<CloudFacetIndex, Box<3>> box;
+  for (const auto& facet : cloud.facets) box.push_back(box_of<3>(corners_of<3>(facet, cloud.position)));
   for (const CloudFacetIndex f : suspects) {
+    const auto crosses_f = [&](CloudFacetIndex g) {
+      return f != g && overlap(box[f], box[g]) && cross(cloud, cloud.facets[f].node, cloud.facets[g].node);
+    };
     CloudFacetIndex crossed = CloudFacetIndex::none;
-    tree.overlapping(box(f), [&](std::int32_t number) {
-      const auto g = as<CloudFacetIndex>(number);
-      if (f != g && (!exists(crossed) || g < crossed) &&
-          cross(cloud, cloud.facets[f].node, cloud.facets[g].node))
-        crossed = g;
-    });
+    for (const CloudFacetIndex g : box.indices())
+      if (!exists(crossed) && crosses_f(g)) crossed = g;
     if (exists(crossed))
       throw GeometryError(fmt::format("the surface crosses itself: {} crosses {}", describe_facet(cloud, f),
                                       describe_facet(cloud, crossed)));

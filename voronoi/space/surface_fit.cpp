@@ -2,66 +2,48 @@
 
 #include "core/index.hpp"
 #include "voronoi/space/filling.hpp"
+#include "voronoi/space/stars.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace cnem::voronoi {
 
 namespace {
 
-/// Edges and faces of the tetrahedra between nodes on the surface.
+/// Edges and faces of the tetrahedra.
 class SurfaceFaces {
 public:
-  SurfaceFaces(const Cloud<3>& cloud, const Delaunay& mesh) : first_(mesh.first) {
-    IndexedVector<NodeIndex, std::uint8_t> on_surface(cloud.position.size(), 0);
-    for (const auto& facet : cloud.facets)
-      for (const NodeIndex i : facet.node) on_surface[mesh.first[i]] = 1;
-    for (const auto& node : mesh.node) {
-      for (const auto& [a, b, c] : face_of_tetrahedron)
-        if (on_surface[node[a]] && on_surface[node[b]] && on_surface[node[c]])
-          faces_.push_back(sorted({node[a], node[b], node[c]}));
-      for (std::size_t a = 0; a < 4; ++a)
-        for (std::size_t b = 0; b < a; ++b)
-          if (on_surface[node[a]] && on_surface[node[b]]) edges_.push_back(std::minmax(node[a], node[b]));
-    }
-    std::sort(faces_.begin(), faces_.end());
-    std::sort(edges_.begin(), edges_.end());
-  }
+  explicit SurfaceFaces(const Delaunay& mesh) : first_(mesh.first), stars_(mesh) {}
 
   /// Whether there is a tetrahedron with them; any of the nodes at one place.
-  bool has(NodeIndex a, NodeIndex b, NodeIndex c) const {
-    return std::binary_search(faces_.begin(), faces_.end(), sorted({first_[a], first_[b], first_[c]}));
+  bool has(NodeIndex a, NodeIndex b, NodeIndex c) {
+    a = first_[a], b = first_[b], c = first_[c];
+    return a != b && b != c && c != a && exists(stars_.with(a, b, c));
   }
-  bool has(NodeIndex a, NodeIndex b) const {
-    const std::pair<NodeIndex, NodeIndex> edge = std::minmax(first_[a], first_[b]);
-    return std::binary_search(edges_.begin(), edges_.end(), edge);
+  bool has(NodeIndex a, NodeIndex b) {
+    a = first_[a], b = first_[b];
+    return a != b && exists(stars_.with(a, b));
   }
 
 private:
-  static std::array<NodeIndex, 3> sorted(std::array<NodeIndex, 3> node) {
-    std::sort(node.begin(), node.end());
-    return node;
-  }
   const IndexedVector<NodeIndex, NodeIndex>& first_;
-  std::vector<std::array<NodeIndex, 3>> faces_;
-  std::vector<std::pair<NodeIndex, NodeIndex>> edges_;
+  Stars stars_;
 };
 
 } // namespace
 
-int fit_surface(Cloud<3>& cloud, const Delaunay& mesh, double flat_angle, const FixedNodes& fixed) {
-  const SurfaceFaces faces(cloud, mesh);
+int fit_surface(Cloud<3>& cloud, const Delaunay& mesh, const std::vector<CloudFacetIndex>& lost,
+                double flat_angle, const FixedNodes& fixed) {
+  SurfaceFaces faces(mesh);
   FlippableSurface surface(cloud, fixed);
   const double least_cosine = std::cos(flat_angle);
   std::vector<SurfaceEdge> stack;
   const auto push = [&](CloudFacetIndex f) {
     for (std::size_t k = 0; k < 3; ++k) stack.push_back(edge_at(f, k));
   };
-  for (const CloudFacetIndex f : cloud.facets.indices()) {
-    const auto& [a, b, c] = cloud.facets[f].node;
-    if (!faces.has(a, b, c)) push(f);
-  }
+  for (const CloudFacetIndex f : lost) push(f);
   int flips = 0;
   while (!stack.empty()) {
     const SurfaceEdge e = stack.back(), back = surface.across(e);
@@ -78,21 +60,24 @@ int fit_surface(Cloud<3>& cloud, const Delaunay& mesh, double flat_angle, const 
 }
 
 int peel_flat(Cloud<3>& cloud, const Delaunay& mesh, const Walls& walls, double flat_angle) {
-  FlippableSurface surface(cloud);
+  const auto is_facet = [](CloudFacetIndex f) { return exists(f); };
+  std::optional<FlippableSurface> surface; // few clouds have any
   const double least_cosine = std::cos(flat_angle);
   int flips = 0;
   for (const SimplexIndex t : mesh.node.indices()) {
-    if (!walls.blocked[t]) continue;
+    if (!walls.blocked[t] || std::count_if(walls.facet[t].begin(), walls.facet[t].end(), is_facet) < 2)
+      continue;
     const auto& node = mesh.node[t];
     if (!is_flat({cloud.position[node[0]], cloud.position[node[1]], cloud.position[node[2]],
                   cloud.position[node[3]]}))
       continue;
+    if (!surface) surface.emplace(cloud);
     for (std::size_t p = 0; p < 4; ++p)
       for (std::size_t q = 0; q < p; ++q) {
         const CloudFacetIndex f = walls.facet[t][p], g = walls.facet[t][q];
         if (!exists(f) || !exists(g)) continue;
         for (std::size_t k = 0; k < 3; ++k)
-          if (facet_of(surface.across(edge_at(f, k))) == g && surface.flip(edge_at(f, k), least_cosine)) {
+          if (facet_of(surface->across(edge_at(f, k))) == g && surface->flip(edge_at(f, k), least_cosine)) {
             ++flips;
             p = q = 4;
             break;

@@ -16,6 +16,9 @@ namespace cnem::voronoi {
 /// crosses itself or is inside out; nodes outside; coincident nodes that are no declared twins; positions
 /// that are not finite; facets that stay lost, and tetrahedra between two facets that are flat to rounding
 /// (the boundary has to be recovered first).
+///
+/// A cloud that brings its tetrahedra (Cloud::simplices and across) gets these, in a small part of the time;
+/// it is asserted that they are the same.
 Tetrahedra triangulate(const Cloud<3>& cloud);
 
 } // namespace cnem::voronoi

@@ -83,20 +83,29 @@ Walls find_walls(const Cloud<3>& cloud, const Delaunay& mesh) {
   Walls walls;
   walls.facet.assign(mesh.node.size(), {no_facet, no_facet, no_facet, no_facet});
   walls.blocked.assign(mesh.node.size(), 0);
+  const auto stands = [&](SimplexIndex t, std::size_t k, CloudFacetIndex inner, CloudFacetIndex outer) {
+    if (exists(inner)) {
+      walls.facet[t][k] = inner;
+      seen[inner] |= Seen::behind;
+    }
+    if (exists(outer)) seen[outer] |= Seen::ahead;
+    walls.blocked[t] |= static_cast<std::uint8_t>(1U << k);
+  };
   for (const SimplexIndex t : mesh.node.indices()) {
     const auto& node = mesh.node[t];
     const int count = on_surface[node[0]] + on_surface[node[1]] + on_surface[node[2]] + on_surface[node[3]];
     if (count < 3) continue;
     for (std::size_t k = 0; k < 4; ++k) {
       if (count == 3 && on_surface[node[k]]) continue;
+      const SimplexIndex next = mesh.neighbour[t][k];
+      if (exists(next) && next < t) continue; // the face has been looked at from there
       const auto& [a, b, c] = face_of_tetrahedron[k];
       const auto [inner, outer] = table.find({node[a], node[b], node[c]});
-      if (exists(inner)) {
-        walls.facet[t][k] = inner;
-        seen[inner] |= Seen::behind;
-      }
-      if (exists(outer)) seen[outer] |= Seen::ahead;
-      if (exists(inner) || exists(outer)) walls.blocked[t] |= static_cast<std::uint8_t>(1U << k);
+      if (!exists(inner) && !exists(outer)) continue;
+      stands(t, k, inner, outer);
+      if (!exists(next)) continue;
+      const auto& back = mesh.neighbour[next];
+      stands(next, index_of(std::find(back.begin(), back.end(), t) - back.begin()), outer, inner);
     }
   }
   for (const CloudFacetIndex f : seen.indices()) {

@@ -94,6 +94,30 @@ TEST(WorkingSurface, keeps_its_genus_and_books_the_volume_under_random_changes) 
   }
 }
 
+TEST(WorkingSurface, tells_facets_that_are_not_where_they_were) {
+  const Cloud<3> cloud = testing::unrecovered({.shape = SpaceShape::torus, .cells = 6, .jitter = 0.2});
+  WorkingSurface surface = surface_of(cloud);
+  EXPECT_TRUE(surface.changed_facets(cloud).empty());
+  change_at_random(surface, 5, 30, 1.0 / 6);
+  const auto changed = surface.changed_facets(cloud);
+  const auto places = [](const Facet<3>& facet, const IndexedVector<NodeIndex, Vec3>& position) {
+    std::array<std::array<double, 3>, 3> x{};
+    for (std::size_t k = 0; k < 3; ++k)
+      for (std::size_t c = 0; c < 3; ++c) x[k][c] = position[facet.node[k]][static_cast<Eigen::Index>(c)];
+    std::rotate(x.begin(), std::min_element(x.begin(), x.end()), x.end());
+    return x;
+  };
+  std::set<std::array<std::array<double, 3>, 3>> before;
+  for (const Facet<3>& facet : cloud.facets) before.insert(places(facet, cloud.position));
+  std::vector<CloudFacetIndex> expected;
+  const auto now = surface.facets();
+  for (const CloudFacetIndex f : now.indices())
+    if (!before.contains(places(now[f], surface.position()))) expected.push_back(f);
+  EXPECT_EQ(changed, expected);
+  EXPECT_GT(changed.size(), 20U);
+  EXPECT_LT(changed.size(), now.size() / 2);
+}
+
 TEST(WorkingSurface, leaves_faces_creases_and_corners_of_a_cube_to_the_bit) {
   const Cloud<3> cloud = testing::unrecovered({.shape = SpaceShape::cube, .cells = 6, .jitter = 0.3});
   WorkingSurface surface = surface_of(cloud);

@@ -57,5 +57,32 @@ TEST(Crossings, are_found_where_a_facet_folds_on_to_its_neighbour) {
   EXPECT_FALSE(crossings(cloud).empty()); // facets without area
 }
 
+TEST(Crossings, of_suspects_are_those_that_have_one) {
+  testing::Random random(3);
+  int found = 0;
+  for (const SpaceShape shape : {SpaceShape::cube, SpaceShape::torus, SpaceShape::slit}) {
+    const Cloud<3> sound = testing::unrecovered({.shape = shape, .cells = 6, .jitter = 0.2});
+    for (int n = 0; n < 20; ++n) {
+      Cloud<3> cloud = sound;
+      std::vector<char> moved(cloud.position.size(), 0);
+      for (int k = 0; k < 3; ++k) {
+        const NodeIndex i = cloud.facets[static_cast<std::size_t>(random.uniform(0.0, 1.0) * 100.0)].node[0];
+        for (Eigen::Index axis = 0; axis < 3; ++axis) cloud.position[i][axis] += random.uniform(-0.4, 0.4);
+        moved[index_of(i)] = 1;
+      }
+      std::vector<CloudFacetIndex> suspects;
+      for (const CloudFacetIndex f : cloud.facets.indices()) {
+        const auto& node = cloud.facets[f].node;
+        if (moved[index_of(node[0])] || moved[index_of(node[1])] || moved[index_of(node[2])])
+          suspects.push_back(f);
+      }
+      const auto all = crossings(cloud);
+      EXPECT_EQ(crossings(cloud, suspects), all) << name_of(shape);
+      found += static_cast<int>(all.size());
+    }
+  }
+  EXPECT_GT(found, 100);
+}
+
 } // namespace
 } // namespace cnem::voronoi
