@@ -78,7 +78,8 @@ template<int dim> void StepControl::refresh(ExplicitSolver<dim>& solver) {
     limit_ = *time_->max_step;
     limited_by_ = "time.step.max";
   }
-  most_damping_ = damping_of_step(time_->safety * damped_step(solver.critical_damping()) * limit_ / stable_);
+  most_damping_ =
+      damping_of_step(solver.model().safety * damped_step(solver.critical_damping()) * limit_ / stable_);
 }
 
 double StepControl::choose(double now, double event) {
