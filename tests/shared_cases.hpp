@@ -25,6 +25,19 @@ pieces = "top"
 traction = "0 20 MPa"
 )toml";
 
+/// A free block of a metal that flows at a constant stress.
+inline const std::string free_block = R"toml(
+[domain]
+material = "steel"
+outer.rectangle = { from = "0 0 mm", to = "2 1 mm" }
+[cloud]
+spacing = "0.2 mm"
+[materials.steel]
+density = "7850 kg/m3"
+elastic = { young = "210 GPa", poisson = 0.3 }
+plastic = { law = "perfect", yield = "400 MPa" }
+)toml";
+
 /// A block that slides on its base.
 inline const std::string steel_block = steel_304l + R"toml(
 [domain]

@@ -11,6 +11,7 @@
 #include "app/profile.hpp"
 #include "core/error.hpp"
 #include "input/case_machining.hpp"
+#include "machining/engaged_edges.hpp"
 #include "machining/zero_order.hpp"
 #include "report/report.hpp"
 #include "results/output_folder.hpp"
@@ -231,8 +232,10 @@ Checked check_machining(const input::Case& input) {
     checked.facts.emplace_back(label, std::move(text));
   };
   const machining::Cutter& cutter = milling.cut.cutter;
-  const double degree = std::numbers::pi / 180.0, entry = milling.cut.engagement.entry(cutter),
-               exit = milling.cut.engagement.exit(cutter);
+  const double in_cut = machining::steady_chips(milling.cut, milling.axial_depth).radius,
+               radius = in_cut > 0.0 ? in_cut : cutter.radius(), degree = std::numbers::pi / 180.0,
+               entry = milling.cut.engagement.entry(cutter, radius),
+               exit = milling.cut.engagement.exit(cutter, radius);
   add("case", input.title.empty() ? input.name : input.title);
   const auto shown = [&](double angle) { return results::number_format(angle / degree, 4) + " deg"; };
   if (const machining::CuttingEdge* edge = cutter.edge.get()) {
@@ -250,7 +253,7 @@ Checked check_machining(const input::Case& input) {
       fmt::format(
           "{}, teeth pass at {}, edges move at {}", speed_text(milling.speed),
           si_format(milling.speed * static_cast<double>(cutter.teeth()) / (2.0 * std::numbers::pi), "Hz"),
-          si_format(milling.speed * cutter.radius(), "m/s")));
+          si_format(milling.speed * radius, "m/s")));
   if (const machining::Flank& flank = milling.cut.flank; flank.presses())
     add("flanks",
         fmt::format("a land of {} ploughs, {} of clearance, {} of recovery", si_format(flank.land, "m"),

@@ -70,9 +70,8 @@ void add_general(Keys& k) {
       .unit(d::time)
       .in(positive);
   k.add("time.step.check_every", integer,
-        "Steps (with local steps the finest ones) between estimates of the stable step; viscosity that has "
-        "outgrown "
-        "it has it estimated at once.")
+        "Steps (with local steps the finest ones) between estimates of the stable step; one that "
+        "viscosity has made too long is estimated at once.")
       .in({.low = 1, .high = 1e6})
       .fallback("10");
   k.add("time.step.local", boolean,

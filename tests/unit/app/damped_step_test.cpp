@@ -2,6 +2,7 @@
 #include "app/time_control.hpp"
 #include "input/case_reader.hpp"
 #include "mechanics/stable_step.hpp"
+#include "tests/shared_cases.hpp"
 #include "tests/solver_of.hpp"
 #include "tests/unit/app/command_line_fixture.hpp"
 
@@ -12,19 +13,10 @@ namespace cnem::app {
 namespace {
 
 /// Pressed together at a rate at which quadratic viscosity is half of the critical damping of a cell.
-constexpr const char* pressed = R"toml(
+const std::string pressed = testing::free_block + R"toml(
 [time]
 end = "0.1 us"
 step.check_every = 1000
-[domain]
-material = "steel"
-outer.rectangle = { from = "0 0 mm", to = "2 1 mm" }
-[cloud]
-spacing = "0.2 mm"
-[materials.steel]
-density = "7850 kg/m3"
-elastic = { young = "210 GPa", poisson = 0.3 }
-plastic = { law = "perfect", yield = "400 MPa" }
 [initial]
 velocity_gradient.xx = "-1e7 1/s"
 [output]

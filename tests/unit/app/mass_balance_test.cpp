@@ -5,6 +5,7 @@
 #include "app/adaptation.hpp"
 #include "app/simulation.hpp"
 #include "input/case_reader.hpp"
+#include "tests/shared_cases.hpp"
 #include "tests/solver_of.hpp"
 
 #include <algorithm>
@@ -16,19 +17,12 @@ namespace cnem::app {
 namespace {
 
 /// Sheared by 1/20 a step of a picosecond, in which no wave gets anywhere.
-constexpr const char* sheared = R"toml(
+const std::string sheared = testing::free_block + R"toml(
+[cloud.refine.corner]
+points = ["0 0 mm"]
+spacing = "0.02 mm"
 [time]
 end = "1 ns"
-[domain]
-material = "steel"
-outer.rectangle = { from = "0 0 mm", to = "2 1 mm" }
-[cloud]
-spacing = "0.2 mm"
-refine.corner = { points = ["0 0 mm"], spacing = "0.02 mm" }
-[materials.steel]
-density = "7850 kg/m3"
-elastic = { young = "210 GPa", poisson = 0.3 }
-plastic = { law = "perfect", yield = "400 MPa" }
 [initial]
 velocity_gradient.xy = "5e10 1/s"
 )toml";

@@ -2,13 +2,16 @@
 #include "app/run.hpp"
 #include "input/case_machining.hpp"
 #include "input/case_reader.hpp"
+#include "machining/engaged_edges.hpp"
 #include "tests/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 
 namespace cnem::app {
 namespace {
@@ -68,6 +71,31 @@ TEST(MillingDoubts, LayersLagByAStepAtMost) {
   EXPECT_EQ(layers("360"), 34);
   EXPECT_EQ(layers("180"), 34);  // a degree at most
   EXPECT_EQ(layers("2880"), 67); // half a degree will do
+}
+
+TEST(MillingDoubts, LayersOfABallAreOfWhereItsEdgesEnter) {
+  const std::string path = std::string(CNEM_SOURCE_DIR) + "/cases/milling/benchmark_lobes/case.toml";
+  const auto read = [&](const char* end) {
+    return *input::read_case(path, {"analysis.type=milling", "cutter.helix=30 deg", "cutter.diameter=12 mm",
+                                    "milling.axial_depth=1 mm", "milling.radial_depth=3 mm",
+                                    std::string("cutter.end=") + end})
+                .machining;
+  };
+  EXPECT_EQ(read("flat").dexels.layers, 12); // 5.51 degrees of lag
+  const input::MachiningCase ball = read("ball");
+  EXPECT_EQ(ball.dexels.layers,
+            static_cast<int>(std::ceil(machining::moves_on(ball.cut, 1e-3) * 360.0 / std::numbers::pi)));
+  EXPECT_GT(ball.dexels.layers, 40);
+}
+
+// A ball of 6 mm, 1 mm deep, reaches 3.317 mm from its axis.
+TEST(MillingDoubts, ABallIsToldByTheEdgesThatCut) {
+  const input::Case ball =
+      input::read_case(end_mill, {"cutter.end=ball", "milling.axial_depth=1 mm", "dexels.layers=1"});
+  std::string speed;
+  for (const auto& [label, text] : check(ball, {}).facts)
+    if (label == "speed") speed = text;
+  EXPECT_NE(speed.find("edges move at 2.779 m/s"), std::string::npos) << speed;
 }
 
 // An edge whose radius is a little off half of the diameter that is written cuts slots as wide as itself.
