@@ -125,8 +125,8 @@ CNEM_INLINE void viscous_step(const ViscousPoints<dim>& points, double quadratic
   T q = T(0.0);
   if (any(closing)) {
     const T rate = T(2.0 * by_dt) * change * inverse[0];
-    // ρ l c and l/c of the length l, in the plane √(V J) or of revolution √(V J/(2πr F_θθ)), and the speed
-    // c = √(M/ρ), ρ = ρ0/J
+    // ρ l c and l/c of the length l = s √(V J) in the plane or s √(V J/(2πr F_θθ)) of revolution, and the
+    // speed c = √(M/ρ), ρ = ρ0/J
     T mass = load<T>(points.density + p) * volume, impedance;
     if constexpr (dim == 2) {
       if (points.radius) mass = mass / (T(two_pi) * load<T>(points.radius + p) * f[general - 1]);
@@ -136,6 +136,7 @@ CNEM_INLINE void viscous_step(const ViscousPoints<dim>& points, double quadratic
       const T length = exp(log(extent) * T(1.0 / 3.0));
       impedance = length * sqrt(mass * modulus / extent);
     }
+    impedance = impedance * load<T>(points.length_share + p);
     const T share = T(linear) - T(quadratic) * rate * impedance * inverse[1];
     q = select(closing, -rate * impedance * share, T(0.0));
     damping = max(damping, select(closing, share, T(0.0)));

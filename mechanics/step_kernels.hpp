@@ -57,6 +57,7 @@ template<int dim> struct ViscousPoints {
   const double* density;           ///< kg/m³ at F = 1
   const double* wave_modulus;      ///< λ + 2μ, Pa
   const double* volume;            ///< V_p
+  const double* length_share;      ///< s of l = s V^{1/dim}
   const double* radius;            ///< r̄_p of revolution, else null
   double* jacobian;                ///< in: of the step before
   double* pressure;                ///< q, in: of the step before

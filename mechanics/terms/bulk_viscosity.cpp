@@ -1,9 +1,14 @@
 #include "mechanics/terms/bulk_viscosity.hpp"
 
+#include "core/index.hpp"
 #include "core/machine/isa.hpp"
+#include "core/machine/parallel.hpp"
 #include "mechanics/terms/list.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace cnem {
 
@@ -18,9 +23,35 @@ ViscousSums viscous(const ViscousPoints<dim>& points, const BulkViscosity& visco
 } // namespace
 
 template<int dim>
+void set_length_shares(const DiscreteOperators<dim>& operators, const Field& density, const Field& mass,
+                       Field& share) {
+  share.resize(index_of(operators.points));
+  for_each_block(share.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) {
+      Mat<dim> sum = Mat<dim>::Zero();
+      for (auto e = index_of(operators.row_begin[p]); e < index_of(operators.row_begin[p + 1]); ++e) {
+        Vec<dim> gradient;
+        for (std::size_t k = 0; k < dim; ++k) gradient[as<Eigen::Index>(k)] = operators.gradient[k][e];
+        sum += gradient * gradient.transpose() / mass[index_of(operators.node[e])];
+      }
+      Eigen::SelfAdjointEigenSolver<Mat<dim>> axes;
+      axes.computeDirect(sum, Eigen::EigenvaluesOnly);
+      const double highest = 2.0 * axes.eigenvalues()[dim - 1];
+      const double volume = operators.volume[p],
+                   extent = operators.of_revolution()
+                                ? volume / (2.0 * std::numbers::pi * operators.radius[p])
+                                : volume,
+                   length = dim == 2 ? std::sqrt(extent) : std::cbrt(extent);
+      share[p] = 1.0 / std::max(1.0, 0.5 * length * std::sqrt(density[p] * volume * highest));
+    }
+  });
+}
+
+template<int dim>
 ViscousSums add_bulk_viscosity(const BulkViscosity& viscosity, const DiscreteOperators<dim>& operators,
-                               PointState<dim>& point, double dt, const EdgePoints& edge,
-                               ColumnStress<dim>& total, std::size_t begin, std::size_t end) {
+                               const Field& length_share, PointState<dim>& point, double dt,
+                               const EdgePoints& edge, ColumnStress<dim>& total, std::size_t begin,
+                               std::size_t end) {
   ViscousPoints<dim> points{};
   for (std::size_t c = 0; c < point.piola.size(); ++c) {
     points.deformation[c] = point.deformation[c].data();
@@ -29,6 +60,7 @@ ViscousSums add_bulk_viscosity(const BulkViscosity& viscosity, const DiscreteOpe
   points.density = point.density.data();
   points.wave_modulus = point.wave_modulus.data();
   points.volume = operators.volume.data();
+  points.length_share = length_share.data();
   points.radius = operators.of_revolution() ? operators.radius.data() : nullptr;
   points.jacobian = point.jacobian.data();
   points.pressure = point.viscous_pressure.data();
@@ -48,14 +80,17 @@ public:
   std::vector<Energy*> energies() override { return {&dissipated_}; }
   double critical_damping() const override { return damping_; }
   void archive(Archive& archive) override { archive.number("solver/viscosity_ratio", "1", damping_); }
+  void attach(const Body<dim>& body) override {
+    set_length_shares(body.operators(), body.state.point.density, body.state.node.inertia(), length_share_);
+  }
   void begin_step(const Body<dim>&) override { damping_ = 0.0; }
   void begin_stress(const Body<dim>&, const DuePoints& due) override {
     sums_.assign(due.ranges.size(), {0.0, 0.0});
   }
   void after_stress(const Body<dim>& body, const DuePoints& due, const LevelRange& range) override {
     sums_[due.index(range)] =
-        add_bulk_viscosity<dim>(body.model.viscosity, body.operators(), body.state.point, due.own(range),
-                                body.edge, body.stress, range.begin, range.end);
+        add_bulk_viscosity<dim>(body.model.viscosity, body.operators(), length_share_, body.state.point,
+                                due.own(range), body.edge, body.stress, range.begin, range.end);
   }
   void end_stress(const Body<dim>&, const DuePoints&) override {
     double dissipated = 0.0;
@@ -68,6 +103,7 @@ public:
 
 private:
   Energy dissipated_{"viscosity", EnergyKind::dissipated};
+  Field length_share_;   ///< [point] of the reference
   double damping_ = 0.0; ///< largest share of critical damping in the macro step
   std::vector<ViscousSums> sums_;
 };
@@ -80,8 +116,10 @@ template<int dim> std::unique_ptr<Term<dim>> bulk_viscosity(const Model<dim>&) {
 
 template std::unique_ptr<Term<2>> bulk_viscosity(const Model<2>&);
 template std::unique_ptr<Term<3>> bulk_viscosity(const Model<3>&);
-template ViscousSums add_bulk_viscosity<3>(const BulkViscosity&, const DiscreteOperators<3>&, PointState<3>&,
-                                           double, const EdgePoints&, ColumnStress<3>&, std::size_t,
-                                           std::size_t);
+template void set_length_shares(const DiscreteOperators<2>&, const Field&, const Field&, Field&);
+template void set_length_shares(const DiscreteOperators<3>&, const Field&, const Field&, Field&);
+template ViscousSums add_bulk_viscosity<3>(const BulkViscosity&, const DiscreteOperators<3>&, const Field&,
+                                           PointState<3>&, double, const EdgePoints&, ColumnStress<3>&,
+                                           std::size_t, std::size_t);
 
 } // namespace cnem

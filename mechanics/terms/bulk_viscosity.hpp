@@ -7,13 +7,21 @@
 
 namespace cnem {
 
-/// q = ρ l (c₁ l tr²D − c₂ c_d tr D) where tr D < 0, else 0; l = V^{1/dim} of the current cell (of
-/// revolution √ of its meridian area), c_d the
-/// dilatational wave speed. Both coefficients zero switch it off.
+/// q = ρ l (c₁ l tr²D − c₂ c_d tr D) where tr D < 0, else 0; c_d is the dilatational wave speed and l = s
+/// V^{1/dim} of the current cell (of revolution √ of its meridian area), with the share s of
+/// set_length_shares. Both coefficients zero switch it off.
 struct BulkViscosity {
   double quadratic = 0.0; ///< c₁
   double linear = 0.0;    ///< c₂
 };
+
+/// [point] s = min(1, 2c_d/(ω V^{1/dim})) of a reference: the length l of a cell is not larger than that with
+/// which ω = 2c_d/l is the frequency of a chain of such cells, ω² = 2 c_d² ρ V max_n Σ_J (b_J·n)²/M_J with
+/// unit vectors n (one alone has half of ω²); `mass` (kg/m^(3−dim)) is that of inertia. It is 1 but in flat
+/// cells, whose nodes would be damped by more than ξ, which the step is made for (docs/theory.md).
+template<int dim>
+void set_length_shares(const DiscreteOperators<dim>& operators, const Field& density, const Field& mass,
+                       Field& length_share);
 
 /// Writes P − q J F⁻ᵀ of the points [begin, end) to `total`, P from the stress in `point`, and returns what q
 /// dissipated in the step, J/m^(3−dim), and the largest share of critical damping ξ = c₂ + c₁ l |tr D|/c_d,
@@ -21,7 +29,8 @@ struct BulkViscosity {
 /// before and are brought up to date, as are its flow stress and the `edge` records.
 template<int dim>
 ViscousSums add_bulk_viscosity(const BulkViscosity& viscosity, const DiscreteOperators<dim>& operators,
-                               PointState<dim>& point, double dt, const EdgePoints& edge,
-                               ColumnStress<dim>& total, std::size_t begin, std::size_t end);
+                               const Field& length_share, PointState<dim>& point, double dt,
+                               const EdgePoints& edge, ColumnStress<dim>& total, std::size_t begin,
+                               std::size_t end);
 
 } // namespace cnem

@@ -14,11 +14,11 @@ struct Linear {
   Eigen::VectorXd mass;      ///< kg/m (kg), per dof
 };
 
-inline Linear linearise(Approximation<2>& approximation, const Cloud<2>& cloud,
-                        const plasticity::Material& material, double alpha) {
+/// Of points with these moduli λ, Pa, and one μ.
+inline Linear linearise(Approximation<2>& approximation, const Cloud<2>& cloud, const Field& lambdas,
+                        double mu, double density, double alpha) {
   const DiscreteOperators<2>& op = approximation.mechanics;
   const auto n = static_cast<std::size_t>(op.nodes), points = static_cast<std::size_t>(op.points);
-  const double lambda = material.elasticity.lambda(), mu = material.elasticity.mu();
   EdgeDefect<2> edges(alpha);
   edges.reset(Field(points, mu));
   Fields<2> X, x, force;
@@ -38,7 +38,8 @@ inline Linear linearise(Approximation<2>& approximation, const Cloud<2>& cloud,
       const Field side = side_by_side<2>(x);
       deformation_gradient<2>(op, side, F, 0, points);
       for (std::size_t p = 0; p < points; ++p) {
-        const double exx = F[0][p] - 1.0, eyy = F[3][p] - 1.0, exy = 0.5 * (F[1][p] + F[2][p]);
+        const double lambda = lambdas[p], exx = F[0][p] - 1.0, eyy = F[3][p] - 1.0,
+                     exy = 0.5 * (F[1][p] + F[2][p]);
         const double ezz = op.of_revolution() ? F[4][p] - 1.0 : 0.0;
         P[0][p] = lambda * (exx + eyy + ezz) + 2.0 * mu * exx;
         P[3][p] = lambda * (exx + eyy + ezz) + 2.0 * mu * eyy;
@@ -57,10 +58,17 @@ inline Linear linearise(Approximation<2>& approximation, const Cloud<2>& cloud,
         for (std::size_t k = 0; k < 2; ++k)
           linear.stiffness(static_cast<Eigen::Index>(2 * i + k), static_cast<Eigen::Index>(2 * j + d)) =
               -force[k][i] / unit;
-      linear.mass[static_cast<Eigen::Index>(2 * j + d)] = material.density * volume[j];
+      linear.mass[static_cast<Eigen::Index>(2 * j + d)] = density * volume[j];
       x[d][j] = X[d][j];
     }
   return linear;
+}
+
+inline Linear linearise(Approximation<2>& approximation, const Cloud<2>& cloud,
+                        const plasticity::Material& material, double alpha) {
+  const auto points = static_cast<std::size_t>(approximation.mechanics.points);
+  return linearise(approximation, cloud, Field(points, material.elasticity.lambda()),
+                   material.elasticity.mu(), material.density, alpha);
 }
 
 /// Eigenvalues ω² of M⁻¹K, increasing.

@@ -1,0 +1,64 @@
+// What bulk viscosity takes for the length of a cell: as much as damps its own waves by ξ, also of flat
+// cells.
+#include "mechanics/terms/bulk_viscosity.hpp"
+#include "tests/unit/mechanics/linear.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <utility>
+
+namespace cnem::testing {
+namespace {
+
+struct ViscousBody {
+  Cloud<2> cloud;
+  Approximation<2> approximation;
+  plasticity::Material material = steel();
+  Field share, length; ///< [point] s, and √V in m
+
+  explicit ViscousBody(Cloud<2> nodes) : cloud(std::move(nodes)), approximation(scni::Cnem().rebuild(cloud)) {
+    const DiscreteOperators<2>& op = approximation.mechanics;
+    Field mass = op.node_volume();
+    for (double& m : mass) m *= material.density;
+    set_length_shares(op, Field(op.volume.size(), material.density), mass, share);
+    for (const double volume : op.volume) length.push_back(std::sqrt(volume));
+  }
+
+  /// Share of critical damping of the highest mode over the ξ of all points, with lengths of s √V or of √V.
+  double damping_of_highest_mode(bool by_share) {
+    const double stiff = material.wave_modulus(false), speed = std::sqrt(stiff / material.density);
+    Field viscous(length);
+    for (std::size_t p = 0; p < viscous.size(); ++p)
+      viscous[p] *= stiff / speed * (by_share ? share[p] : 1.0);
+    const Linear elastic = linearise(approximation, cloud, material, 0.0),
+                 damped = linearise(approximation, cloud, viscous, 0.0, material.density, 0.0);
+    const Eigen::VectorXd s = elastic.mass.cwiseSqrt().cwiseInverse();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(s.asDiagonal() * elastic.stiffness *
+                                                               s.asDiagonal());
+    const Eigen::VectorXd mode = s.asDiagonal() * modes.eigenvectors().rightCols<1>();
+    return mode.dot(damped.stiffness * mode) / (2.0 * std::sqrt(modes.eigenvalues().maxCoeff()));
+  }
+};
+
+TEST(BulkViscosity, takes_all_of_the_length_of_cells_as_long_as_wide) {
+  for (const Lattice lattice : {Lattice::square, Lattice::hexagonal}) {
+    ViscousBody body(rectangle(1.0, 1.0, 0.1, lattice, 0.2));
+    for (const double share : body.share) EXPECT_EQ(share, 1.0);
+    const double damping = body.damping_of_highest_mode(true);
+    EXPECT_GT(damping, 0.3);
+    EXPECT_LT(damping, 1.1);
+  }
+}
+
+TEST(BulkViscosity, damps_flat_cells_no_more) {
+  ViscousBody body(rectangle(2e-3, 4e-6, 0.1e-3, Lattice::square)); // cells of 100 by 2 um
+  EXPECT_LT(*std::max_element(body.share.begin(), body.share.end()), 0.6);
+  EXPECT_GT(body.damping_of_highest_mode(false), 3.0);
+  const double damping = body.damping_of_highest_mode(true);
+  EXPECT_GT(damping, 0.3);
+  EXPECT_LT(damping, 1.4);
+}
+
+} // namespace
+} // namespace cnem::testing
