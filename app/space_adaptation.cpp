@@ -6,6 +6,7 @@
 #include "clouds/space/domain.hpp"
 #include "core/error.hpp"
 #include "core/index.hpp"
+#include "core/parameter.hpp"
 #include "voronoi/space/tetrahedra.hpp"
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <initializer_list>
+#include <optional>
 
 namespace cnem::app {
 namespace {
@@ -87,7 +89,7 @@ SpaceAdaptation::SpaceAdaptation(const input::Case& input, const ExplicitSolver<
   if (!active()) return;
   const clouds::SpaceSpacing spacing{input.cloud.spacing, input.cloud.space_refinements};
   for (const Vec3& x : solver.conditions().cloud.position) size_.push_back(spacing.at(x));
-  if (input.adapt.indicator) wanted_ = size_;
+  if (follows()) wanted_ = size_;
 }
 
 void SpaceAdaptation::start_log(const std::filesystem::path& folder) {
@@ -98,22 +100,36 @@ void SpaceAdaptation::resume_log(const std::filesystem::path& folder) {
   if (active()) log_.resume(folder, results::history_units(input_->analysis), 3);
 }
 
-Field SpaceAdaptation::refined_spacing(const ExplicitSolver<3>& solver, const Cloud<3>& cloud) {
+double SpaceAdaptation::tool_limit(const ExplicitSolver<3>& solver, const Vec3& x) const {
+  const contact::RigidContact<3>& contact = solver.conditions().contact;
+  double nearest = infinite;
+  for (const ToolIndex t : contact.tools().indices())
+    for (const contact::Ridge<3>& ridge : contact.tools()[t].shape->ridges())
+      nearest = std::min(nearest, ridge.clearance(x - contact.results()[t].displacement));
+  return *input_->adapt.tool_spacing + input_->adapt.growth * nearest;
+}
+
+Field SpaceAdaptation::wanted_spacing(const ExplicitSolver<3>& solver, const Cloud<3>& cloud) {
   const input::Adaptation& rules = input_->adapt;
-  const scni::CellKind cells = input_->method.options.cells;
-  adapt::SpaceStructure structure;
-  adapt::Indicator indicator;
-  try {
-    structure =
-        adapt::structure_of(cloud, voronoi::connected(cloud, tetrahedra(solver.approximation())), cells);
-    indicator = adapt::indicator(cloud, structure, cells, rules.indicator->values(solver.state().point));
-  } catch (const GeometryError&) { // where nodes have passed each other there is nothing to estimate on
-    estimate_.skip();
-    return wanted_;
+  std::optional<adapt::SpaceStructure> structure;
+  if (rules.indicator) {
+    const scni::CellKind cells = input_->method.options.cells;
+    adapt::Indicator indicator;
+    try {
+      structure =
+          adapt::structure_of(cloud, voronoi::connected(cloud, tetrahedra(solver.approximation())), cells);
+      indicator = adapt::indicator(cloud, *structure, cells, rules.indicator->values(solver.state().point));
+    } catch (const GeometryError&) { // where nodes have passed each other there is nothing to estimate on
+      estimate_.skip();
+      return wanted_;
+    }
+    estimate_.mark<3>(rules, cloud, *structure, std::move(indicator), size_);
   }
-  estimate_.mark<3>(rules, cloud, structure, std::move(indicator), size_);
   Field wanted = size_;
-  adapt::limit_growth<3>(cloud, structure, rules.growth, wanted);
+  if (rules.tool_spacing)
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+      wanted[i] = std::min(wanted[i], tool_limit(solver, cloud.position[as<NodeIndex>(i)]));
+  if (structure) adapt::limit_growth<3>(cloud, *structure, rules.growth, wanted);
   return wanted;
 }
 
@@ -128,13 +144,13 @@ double SpaceAdaptation::renew(ExplicitSolver<3>& solver, const Follow& follow) {
   const Field size_before = size_;
   const Estimate estimate_before = estimate_;
   try {
-    const Field wanted = input_->adapt.indicator ? refined_spacing(solver, cloud) : size_;
+    const Field wanted = follows() ? wanted_spacing(solver, cloud) : size_;
     adapt::NodeProperties properties = node_properties(*input_, solver, wanted);
     hold_points(cloud, solver.conditions().supports, properties.held);
     keep_bodies_apart(solver.approximation().links, properties);
     const Resampling<3> change = adapt::resample(cloud, std::move(properties), rules, report);
     solver.prepare(change);
-    if (input_->adapt.indicator) {
+    if (follows()) {
       wanted_ = wanted;
       for (Field* label : {&wanted_, &estimate_.error()})
         if (!label->empty()) carry_label(change.labels, *label);
@@ -150,6 +166,16 @@ double SpaceAdaptation::renew(ExplicitSolver<3>& solver, const Follow& follow) {
     size_ = size_before;
     estimate_ = estimate_before;
     throw;
+  }
+}
+
+void SpaceAdaptation::fit_to_tools(ExplicitSolver<3>& solver, const Follow& follow) {
+  if (!input_->adapt.tool_spacing) return;
+  constexpr int most = 20;
+  for (int pass = 0; pass < most; ++pass) {
+    const int inserted = total_.inserted + total_.inserted_boundary;
+    renew(solver, follow);
+    if (total_.inserted + total_.inserted_boundary == inserted) break;
   }
 }
 
@@ -169,11 +195,11 @@ void SpaceAdaptation::archive(Archive& archive) {
   archive.integer("run/adapt/nodes", nodes);
   size_.resize(nodes);
   archive.field("run/adapt/size", "m", size_);
-  if (input_->adapt.indicator) {
+  if (follows()) {
     wanted_.resize(nodes);
     archive.field("run/adapt/wanted", "m", wanted_);
-    estimate_.archive(archive, nodes);
   }
+  if (input_->adapt.indicator) estimate_.archive(archive, nodes);
   archive.integer("run/adapt/passes", passes_);
   log_.archive(archive);
   for (const auto& [name, count] : counts)

@@ -32,17 +32,23 @@ public:
   /// share of the nodes that came or went. Throws GeometryError with the solver left as it was, IoError.
   double renew(ExplicitSolver<3>& solver, const Follow& follow);
 
+  /// Renews until tools have the nodes that the case wants at them, before the first step. Throws as `renew`.
+  void fit_to_tools(ExplicitSolver<3>& solver, const Follow& follow);
+
   /// Sums over the run, for status.json.
   std::vector<std::pair<std::string, double>> metrics() const;
   void archive(Archive& archive);
 
 private:
-  /// Wanted spacing after an estimate on a cloud, m, [node]: with growth limited.
-  Field refined_spacing(const ExplicitSolver<3>& solver, const Cloud<3>& cloud);
+  bool follows() const { return input_->adapt.indicator || input_->adapt.tool_spacing; }
+  /// m, [node], at tools and after an estimate, with growth limited.
+  Field wanted_spacing(const ExplicitSolver<3>& solver, const Cloud<3>& cloud);
+  /// m, of adapt.tool_spacing at x.
+  double tool_limit(const ExplicitSolver<3>& solver, const Vec3& x) const;
 
   const input::Case* input_;
   Field size_;   ///< [node] m, wanted spacing before growth
-  Field wanted_; ///< [node] m, of the last pass; with an indicator
+  Field wanted_; ///< [node] m, of the last pass; where it is another one
   Estimate estimate_;
   adapt::PassReport total_;
   std::int64_t passes_ = 0;

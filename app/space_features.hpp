@@ -27,8 +27,9 @@ public:
       : input_(&input), adaptation_(input, solver) {}
   /// Begin the files of a run, none without a folder, or go on with them; what is later than `time` (s) is
   /// dropped. Throw IoError.
-  void start(const std::filesystem::path& folder, ExplicitSolver<3>&, const Follow&) {
+  void start(const std::filesystem::path& folder, ExplicitSolver<3>& solver, const Follow& follow) {
     adaptation_.start_log(folder);
+    adaptation_.fit_to_tools(solver, follow);
     if (!folder.empty()) pictures_.emplace(*input_, folder);
   }
   void resume(const std::filesystem::path& folder, double time) {

@@ -51,6 +51,18 @@ double Ridge<3>::distance(const Vec3& x) const {
   return (Vec2(radial, axial) - section.centre).norm();
 }
 
+double Ridge<3>::clearance(const Vec3& x) const {
+  if (path == Path::corner) return (x - origin).norm();
+  double along = 0.0;
+  if (path == Path::straight) {
+    along = std::clamp((x - origin).dot(v.cross(u)), 0.0, length);
+  } else {
+    along = turn_towards(x); // beyond the end: the nearer one
+    if (along > length) along = along - length < full_turn - along ? length : 0.0;
+  }
+  return std::max(0.0, (x - at(along).centre).norm() - section.radius);
+}
+
 double Ridge<3>::turn_towards(const Vec3& x) const {
   const Vec3 from = x - origin;
   const double turn = std::atan2(from.dot(v.cross(u)), from.dot(u));

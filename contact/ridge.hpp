@@ -76,6 +76,8 @@ template<> struct Ridge<3> {
   double turn_towards(const Vec3& x) const;
   /// m, of a point from the line or circle of the path, as if it went on without end; not of a corner.
   double distance(const Vec3& x) const;
+  /// m, of a point from the ridge, which ends; 0 within its radius.
+  double clearance(const Vec3& x) const;
   /// How far the middle of an edge of length l (m) may be from the path for the edge to be met: crossings lie
   /// up to a tenth of l beside it, above the ridge or up to half of l deep.
   double reach(double l) const { return std::max(section.radius, 0.5 * l) + 0.601 * l; }

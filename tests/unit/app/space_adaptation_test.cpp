@@ -115,5 +115,37 @@ h_min = "0.12 mm"
   EXPECT_GT(solver.stable_step().dt, 0.25 * step); // 1/2.1, and what small tetrahedra take
 }
 
+// A box whose edge lies across the top of the block goes along it.
+TEST(SpaceAdaptation, tools_have_the_spacing_at_their_edges_that_the_case_asks_for_wherever_they_go) {
+  const input::Case input = block_with(R"toml(
+tool_spacing = "0.08 mm"
+[cloud]
+spacing = "0.25 mm"
+[tools.box]
+box = { from = "-3 -1 1.001 mm", to = "0.4 2 3 mm" }
+velocity = ["5 km/s", "0 m/s", "0 m/s"]
+friction = { law = "none" }
+)toml");
+  ExplicitSolver<3> solver = testing::solver_of<3>(input);
+  SpaceAdaptation adaptation(input, solver);
+  const auto near_edge = [&](double along) { // nodes on top, of 1 mm of edge
+    const auto& x = solver.state().node.position;
+    int nodes = 0;
+    for (std::size_t i = 0; i < x[0].size(); ++i)
+      nodes += std::abs(x[0][i] - along) < 0.13e-3 && x[2][i] > 0.999e-3;
+    return nodes;
+  };
+  const int coarse = near_edge(0.4e-3), nodes = static_cast<int>(solver.state().node.size());
+  adaptation.fit_to_tools(solver, nothing);
+  const int fine = near_edge(0.4e-3), elsewhere = near_edge(1.6e-3);
+  EXPECT_GT(fine, 4 * coarse); // (0.25/0.08)² = 9.8 where it is finest, a third of that at 0.1 mm
+  EXPECT_LE(elsewhere, 2 * coarse);
+  EXPECT_LT(solver.state().node.size(), 12U * static_cast<std::size_t>(nodes));
+  while (solver.state().time < 0.24e-6) solver.advance(solver.stable_step().dt); // 1.2 mm further
+  adaptation.fit_to_tools(solver, nothing);
+  EXPECT_GT(near_edge(1.6e-3), 0.7 * fine);
+  EXPECT_LT(near_edge(0.4e-3), 0.6 * fine); // what lies closer than 0.62 of what is wanted goes
+}
+
 } // namespace
 } // namespace cnem::app

@@ -252,6 +252,25 @@ TEST(SweptShape, ridges_of_a_box_are_twelve_edges_and_eight_corners) {
   }
 }
 
+// Against places along them: extruded, of revolution, with the corners of a box.
+TEST(SweptShape, ridges_end_where_points_are_told_their_clearance) {
+  const SweptShape box = SweptShape::extruded(cnem::testing::box({0, 0}, {2, 1}), 0.0, 3.0),
+                   punch = SweptShape::extruded(rounded_box({-1, -0.7}, {1, 0.7}, 0.3), 0.0, 1.0, 0.2),
+                   round = SweptShape::revolved(punch_section(1.0, 2.0, 0.2));
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> within(-3.0, 4.0);
+  for (const SweptShape* shape : {&box, &punch, &round})
+    for (const Ridge<3>& ridge : shape->ridges())
+      for (int k = 0; k < 10; ++k) {
+        const Vec3 x(within(random), within(random), within(random));
+        double nearest = ridge.is_point() ? (x - ridge.point()).norm() : infinite;
+        constexpr int count = 2000;
+        for (int n = 0; n <= count && !ridge.is_point(); ++n)
+          nearest = std::min(nearest, (x - ridge.at(n * ridge.length / count).centre).norm());
+        EXPECT_NEAR(ridge.clearance(x), std::max(0.0, nearest - ridge.section.radius), 1e-5);
+      }
+}
+
 TEST(SweptShape, rounded_ridges_are_where_the_surface_is) {
   const SweptShape punch = SweptShape::extruded(rounded_box({-1, -0.7}, {1, 0.7}, 0.3), 0.0, 1.0, 0.2);
   const SweptShape round = SweptShape::revolved(punch_section(1.0, 2.0, 0.2));
