@@ -18,8 +18,10 @@ constexpr double isotropic = 1e-9;       ///< by how much less mobilities along 
 constexpr double linear = 1e-9;          ///< of its strength: what a contact that slips may be off by
 constexpr double contradiction = 1e-6;   ///< of the depth: contacts that stay open by more are not solved
 constexpr double most_thrown = 100.0;    ///< times the depth, or the way that the fastest slips
+constexpr double most_turn = 1.0 - 1e-6; ///< of the friction that would let a contact stick: it hardly slips
+constexpr double least_pivot = 1e-14;    ///< of what the diagonal was, in space
 constexpr std::size_t most_on_tool = 32; ///< contacts that a free tool couples all with all
-constexpr double most_work = 3e5; ///< of an elimination in space, multiplications: 100 sweeps of the group
+constexpr double most_work = 3e3; ///< multiplications of an elimination in space, a contact: some 50 sweeps
 
 /// dS/dp of Contact::strength at p ≥ 0.
 template<int dim> double slope(const Contact<dim>& contact, double p) {
@@ -33,7 +35,7 @@ template<int dim> double slope(const Contact<dim>& contact, double p) {
 template<int dim>
 bool ContactSystem<dim>::settle(std::vector<Contact<dim>>& contacts, std::span<const std::int32_t> group,
                                 ReactionsOfNodes<dim>& nodes, ReactionsOfTools<dim>& tools, double dt,
-                                double depth) {
+                                double depth, double known_depth) {
   Reaction<dim> none;
   const auto sweeper = [&](std::int32_t c) {
     Contact<dim>& contact = contacts[index_of(c)];
@@ -41,53 +43,67 @@ bool ContactSystem<dim>::settle(std::vector<Contact<dim>>& contacts, std::span<c
   };
   member_.clear();
   rubs_ = false;
-  for (const std::int32_t c : group) {
-    const Contact<dim>& contact = contacts[index_of(c)];
-    const Sweeper<dim> one = sweeper(c);
-    Member& member = member_.emplace_back();
-    member.contact = c;
-    take_axes(member, contact, one);
-    const Vec<dim> slip = one.slip();
-    member.given[0] = contact.pressing;
-    member.velocity[0] = one.gap() / dt;
-    double rubbing = 0.0;
-    for (std::size_t k = 1; k < dim; ++k) {
-      member.given[k] = contact.sliding.dot(member.axis[k]);
-      member.velocity[k] = slip.dot(member.axis[k]);
-      rubbing += std::abs(member.given[k]);
-    }
-    member.before = member.velocity;
-    for (std::size_t k = 1; k < dim; ++k)
-      if (dim == 3 && member.mobility[k] == 0.0 && member.sideways > 0.0 &&
-          std::abs(member.velocity[k]) > linear * slip.norm())
-        return false; // no impulse stops slip along what is held: left to sweeps
-    rubs_ = rubs_ || (contact.coulomb > 0.0 && contact.limit > 0.0) || rubbing != 0.0;
-  }
+  for (const std::int32_t c : group)
+    if (!take(c, contacts[index_of(c)], sweeper(c), dt)) return false;
   if (!couple(contacts, nodes, tools)) return false;
   number();
+  if (dim == 3 && static_cast<double>(width() * band_ * band_) > most_work) return false;
   fill();
-  if (dim == 3 && static_cast<double>(width() * member_.size() * band_ * band_) > most_work) return false;
   look(contacts);
   bool settled = false;
   for (int round = 0; round < rounds && !settled; ++round) {
     if (!solve(contacts)) return false;
     settled = !look(contacts);
   }
-  if (!settled) return false;
-  double way = depth;
-  for (const Member& member : member_)
-    for (std::size_t k = 1; k < width(); ++k) way = std::max(way, std::abs(member.before[k]) * dt);
-  for (const Member& member : member_) {
-    if (member.state == State::open) continue;
-    if (!(std::abs(member.velocity[0]) * dt <= contradiction * depth)) return false;
-    if (!(std::abs(member.change[0]) * member.mobility[0] * dt <= most_thrown * depth)) return false;
-    for (std::size_t k = 1; k < width(); ++k)
-      if (!(std::abs(member.velocity[k] - member.before[k]) * dt <= most_thrown * way)) return false;
-  }
+  if (!settled || !consistent(dt, depth, known_depth)) return false;
   for (const Member& member : member_) {
     Vec<dim> sliding = member.impulse(1) * member.axis[1];
     if constexpr (dim == 3) sliding += member.impulse(2) * member.axis[2];
     sweeper(member.contact).set(std::max(0.0, member.impulse(0)), sliding);
+  }
+  return true;
+}
+
+/// Lists a member; false where it slips along what holds it, which no impulse stops.
+template<int dim>
+bool ContactSystem<dim>::take(std::int32_t c, const Contact<dim>& contact, const Sweeper<dim>& sweeper,
+                              double dt) {
+  Member& member = member_.emplace_back();
+  member.contact = c;
+  take_axes(member, contact, sweeper);
+  const Vec<dim> slip = sweeper.slip();
+  member.given[0] = contact.pressing;
+  member.velocity[0] = sweeper.gap() / dt;
+  double rubbing = 0.0;
+  for (std::size_t k = 1; k < dim; ++k) {
+    member.given[k] = contact.sliding.dot(member.axis[k]);
+    member.velocity[k] = slip.dot(member.axis[k]);
+    rubbing += std::abs(member.given[k]);
+    if (dim == 3 && member.mobility[k] == 0.0 && member.sideways > 0.0 &&
+        std::abs(member.velocity[k]) > linear * slip.norm())
+      return false;
+  }
+  member.before = member.velocity;
+  rubs_ = rubs_ || (contact.coulomb > 0.0 && contact.limit > 0.0) || rubbing != 0.0;
+  return true;
+}
+
+/// Whether what the last solution closes is closed, what it lets stick sticks, and none is thrown.
+template<int dim> bool ContactSystem<dim>::consistent(double dt, double depth, double known_depth) const {
+  double way = known_depth; // m
+  for (const Member& member : member_)
+    for (std::size_t k = 1; k < width(); ++k) way = std::max(way, std::abs(member.before[k]) * dt);
+  const double thrown = std::max(most_thrown * depth, known_depth);
+  for (const Member& member : member_) {
+    if (member.state == State::open) continue;
+    if (!(std::abs(member.velocity[0]) * dt <= contradiction * known_depth)) return false;
+    if (!(std::abs(member.change[0]) * member.mobility[0] * dt <= thrown)) return false;
+    if constexpr (dim == 3)
+      for (std::size_t k = 1; k < width(); ++k) {
+        if (!(std::abs(member.velocity[k] - member.before[k]) * dt <= most_thrown * way)) return false;
+        if (member.state == State::sticking && !(std::abs(member.velocity[k]) * dt <= contradiction * way))
+          return false;
+      }
   }
   return true;
 }
@@ -147,7 +163,7 @@ bool ContactSystem<dim>::couple(const std::vector<Contact<dim>>& contacts, const
   return true;
 }
 
-/// Numbers the members breadth first, from one that is far from the first.
+/// Numbers the members breadth first, from one that is far from the first; knows the band then.
 template<int dim> void ContactSystem<dim>::number() {
   const std::size_t n = member_.size();
   std::sort(link_.begin(), link_.end(), [](const Link& a, const Link& b) {
@@ -170,6 +186,10 @@ template<int dim> void ContactSystem<dim>::number() {
     start = queue_.back();
   }
   assert(queue_.size() == n);
+  std::int32_t apart = 0;
+  for (const Link& link : link_)
+    apart = std::max(apart, std::abs(place_[index_of(link.one)] - place_[index_of(link.other)]));
+  band_ = width() * (index_of(apart) + 1) - 1;
 }
 
 template<int dim> std::size_t ContactSystem<dim>::row(std::int32_t member, std::size_t k) const {
@@ -183,10 +203,6 @@ template<int dim> double* ContactSystem<dim>::row_of(std::vector<double>& matrix
 
 /// The mobilities: velocities of all members per impulse of each.
 template<int dim> void ContactSystem<dim>::fill() {
-  std::int32_t apart = 0;
-  for (const Link& link : link_)
-    apart = std::max(apart, std::abs(place_[index_of(link.one)] - place_[index_of(link.other)]));
-  band_ = width() * (index_of(apart) + 1) - 1;
   mobility_.assign(width() * member_.size() * (2 * band_ + 1), 0.0);
   for (const Link& link : link_)
     for (std::size_t k = 0; k < width(); ++k)
@@ -222,8 +238,10 @@ template<int dim> bool ContactSystem<dim>::look(const std::vector<Contact<dim>>&
     changed = changed || state != member.state;
     member.state = state;
     if (state != State::slipping) continue;
+    const Vec<dim - 1> before = member.direction;
     member.wanted = friction.norm();
     member.direction = friction / member.wanted;
+    changed = changed || member.direction.dot(before) < 0.0;
     const double strength = contact.strength(member.impulse(0));
     for (std::size_t k = 1; k < dim; ++k) friction[static_cast<Eigen::Index>(k) - 1] = member.impulse(k);
     changed = changed || (friction - strength * member.direction).norm() > linear * strength;
@@ -256,8 +274,9 @@ template<int dim> void ContactSystem<dim>::set_rows(const std::vector<Contact<di
   }
 }
 
-/// Friction as large as it can be, against the slip; of its direction, τ/|τ| with τ the friction that would
-/// let it stick, the derivative P/|τ| in space, P = 1 − direction ⊗ direction.
+/// Friction as large as it can be, against the slip: S(p) τ/|τ|, τ the friction that would let it stick. In
+/// space the direction turns with τ by P/|τ|, P = 1 − direction ⊗ direction; S/|τ| is kept below 1, which it
+/// is at the solution, so that rows stay regular on the way.
 template<int dim>
 void ContactSystem<dim>::set_slip(const Contact<dim>& contact, std::int32_t m, std::size_t k) {
   const Member& member = member_[index_of(m)];
@@ -269,8 +288,9 @@ void ContactSystem<dim>::set_slip(const Contact<dim>& contact, std::int32_t m, s
   entry[row(m, 0)] = -along(k) * rise;
   right_[r] += along(k) * (strength - rise * (pressing - member.given[0]));
   if constexpr (dim == 3) {
+    const double share = std::min(strength / member.wanted, most_turn);
     for (std::size_t l = 1; l < dim; ++l) {
-      const double turn = strength / member.wanted * ((k == l ? 1.0 : 0.0) - along(k) * along(l)),
+      const double turn = share * ((k == l ? 1.0 : 0.0) - along(k) * along(l)),
                    moved = turn / member.sideways;
       const std::size_t other = row(m, l), first = other - std::min(other, band_),
                         last = std::min(right_.size(), other + band_ + 1);
@@ -283,13 +303,19 @@ void ContactSystem<dim>::set_slip(const Contact<dim>& contact, std::int32_t m, s
   }
 }
 
-/// Gauss's, without pivots: diagonals are positive, those of mobilities and of slip, whose friction falls
-/// short of what would let it stick.
+/// Gauss's, without pivoting: in the plane all rows that are not the identity have mobilities, which are
+/// definite; in space false where slip and normal impulses couple so that a pivot vanishes.
 template<int dim> bool ContactSystem<dim>::eliminate() {
   const std::size_t n = right_.size();
+  if constexpr (dim == 3) {
+    diagonal_.resize(n);
+    for (std::size_t r = 0; r < n; ++r) diagonal_[r] = std::abs(row_of(matrix_, r)[r]);
+  }
   for (std::size_t r = 0; r < n; ++r) {
     const double* const pivot = row_of(matrix_, r);
     if (pivot[r] == 0.0) return false;
+    if constexpr (dim == 3)
+      if (!(std::abs(pivot[r]) > least_pivot * diagonal_[r])) return false;
     const std::size_t end = std::min(n, r + band_ + 1);
     for (std::size_t below = r + 1; below < end; ++below) {
       double* const entry = row_of(matrix_, below);

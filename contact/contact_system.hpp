@@ -19,13 +19,16 @@ template<int dim> class Sweeper;
 /// their own.
 template<int dim> class ContactSystem {
 public:
-  /// Starts from the impulses that a connected group has. `depth` (m) is the measure of rest: how deep its
-  /// deepest contact was, or any of the step before it. True when the states have settled; then impulses and
-  /// reactions are those of the solution. False, and nothing has changed, when they have not, or when
-  /// contacts contradict each other: the solution does not close them, or throws one more than a hundred
-  /// times as far as the depth, along the surface as the way of the fastest that slips.
+  /// Starts from the impulses that a connected group has. `depth` (m) is how deep its deepest contact was,
+  /// known_depth ≥ depth (m), which in space is the measure of rest, that of the deepest of the step. True
+  /// when the states have settled; then impulses and reactions are those of the solution. False, and nothing
+  /// has changed, when they have not; when contacts contradict each other: the solution does not close them,
+  /// or throws one further than known_depth and a hundred times the depth, or along the surface a hundred
+  /// times the way of the fastest that slips; in space also when the elimination would cost more than sweeps
+  /// do.
   bool settle(std::vector<Contact<dim>>& contacts, std::span<const std::int32_t> group,
-              ReactionsOfNodes<dim>& nodes, ReactionsOfTools<dim>& tools, double dt, double depth);
+              ReactionsOfNodes<dim>& nodes, ReactionsOfTools<dim>& tools, double dt, double depth,
+              double known_depth);
 
 private:
   enum class State : std::int8_t { open, pressing, sticking, slipping };
@@ -58,17 +61,19 @@ private:
     Mat<dim> inverse;
   };
 
+  bool take(std::int32_t c, const Contact<dim>& contact, const Sweeper<dim>& sweeper, double dt);
+  void take_axes(Member& member, const Contact<dim>& contact, const Sweeper<dim>& sweeper) const;
   bool couple(const std::vector<Contact<dim>>& contacts, const ReactionsOfNodes<dim>& nodes,
               const ReactionsOfTools<dim>& tools);
   void number();
   void fill();
-  void take_axes(Member& member, const Contact<dim>& contact, const Sweeper<dim>& sweeper) const;
   State state_of(const Contact<dim>& contact, const Member& member, Vec<dim - 1>& friction) const;
   bool look(const std::vector<Contact<dim>>& contacts);
   bool solve(const std::vector<Contact<dim>>& contacts);
   void set_rows(const std::vector<Contact<dim>>& contacts);
   void set_slip(const Contact<dim>& contact, std::int32_t m, std::size_t k);
   bool eliminate();
+  bool consistent(double dt, double depth, double known_depth) const;
 
   std::size_t width() const { return rubs_ ? dim : 1; }
   std::size_t row(std::int32_t member, std::size_t k) const;
@@ -81,7 +86,7 @@ private:
   std::vector<Link> link_;
   std::vector<std::int32_t> place_, queue_; ///< [member] number, and [number] member
   std::vector<double> mobility_, matrix_;   ///< rows of 2 band + 1
-  std::vector<double> right_;               ///< and the solution
+  std::vector<double> right_, diagonal_;    ///< right_: and the solution; diagonal_: before elimination
 };
 
 extern template class ContactSystem<2>;

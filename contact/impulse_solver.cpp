@@ -82,14 +82,15 @@ double ImpulseSolver<dim>::solve(std::vector<Contact<dim>>& contacts, ReactionsO
       only.rub();
       continue;
     }
-    double depth = known_depth;
+    double depth = 0.0;
     mobility_.clear();
     for (const std::int32_t c : group) {
       depth = std::max(depth, -sweeper(c).gap());
       mobility_.push_back(sweeper(c).along(contacts[index_of(c)].normal));
     }
     deepest = std::max(deepest, depth);
-    const double least = std::max(tolerance, relative * depth);
+    const double measure = std::max(depth, known_depth);
+    const double least = std::max(tolerance, relative * measure);
     int next = sweeps_before;
     for (int sweep = 1; sweep <= sweeps; ++sweep) {
       double moved = 0.0;
@@ -103,7 +104,7 @@ double ImpulseSolver<dim>::solve(std::vector<Contact<dim>>& contacts, ReactionsO
           moved = std::max(moved, shift_tool(contacts, group, nodes, tools[t], t, dt));
       if (moved <= least) break;
       if (sweep == next) {
-        system_.settle(contacts, group, nodes, tools, dt, depth);
+        system_.settle(contacts, group, nodes, tools, dt, depth, measure);
         next *= 3;
       }
     }
