@@ -45,6 +45,15 @@ Contact<dim> on_tool(const Vec<dim>& normal, double depth,
   return contact;
 }
 
+/// A node of 1 kg at rest, no contacts.
+template<int dim> Scene<dim> resting_node() {
+  Scene<dim> scene;
+  scene.tools.resize(1);
+  scene.nodes.resize(1);
+  scene.nodes[0_boundary].inverse = Mat<dim>::Identity();
+  return scene;
+}
+
 enum class Law { none, coulomb, tresca, smooth };
 
 /// Of all contacts, on tools that move along x.

@@ -36,15 +36,6 @@ Scene<2> chain(int length, Law law, double coefficient, std::mt19937& random) {
   return scene;
 }
 
-/// A node of 1 kg at rest, no contacts.
-Scene<2> resting_node() {
-  Scene<2> scene;
-  scene.tools.resize(1);
-  scene.nodes.resize(1);
-  scene.nodes[0_boundary].inverse = Mat2::Identity();
-  return scene;
-}
-
 } // namespace
 
 TEST(ImpulseSolver, agrees_with_sweeps_that_have_come_to_rest) {
@@ -77,7 +68,7 @@ TEST(ImpulseSolver, needs_few_sweeps) {
 }
 
 TEST(ImpulseSolver, redundant_contacts_bear_what_one_would) {
-  Scene<2> one = resting_node(), both = one;
+  Scene<2> one = resting_node<2>(), both = one;
   one.contacts = {on_tool<2>({0, 1}, 1e-3, {{0_boundary, 1.0}})};
   both.contacts = {one.contacts[0], one.contacts[0], on_tool<2>({0.6, 0.8}, 1e-3, {{0_boundary, 1.0}})};
   one.contacts.push_back(both.contacts[2]);
@@ -89,7 +80,7 @@ TEST(ImpulseSolver, redundant_contacts_bear_what_one_would) {
 
 TEST(ImpulseSolver, a_node_without_room_is_not_thrown) {
   for (const double wedge : {0.0, 1e-9, 1e-3}) { // the tools' faces, all but parallel
-    Scene<2> scene = resting_node();
+    Scene<2> scene = resting_node<2>();
     scene.contacts = {on_tool<2>({0, 1}, 1e-3, {{0_boundary, 1.0}}),
                       on_tool<2>({std::sin(wedge), -std::cos(wedge)}, 1e-3, {{0_boundary, 1.0}})};
     ImpulseSolver<2>().solve(scene.contacts, scene.nodes, scene.tools, dt, 1e-18, 100);
