@@ -19,13 +19,15 @@ template<int dim> class Sweeper;
 /// their own.
 template<int dim> class ContactSystem {
 public:
-  /// Starts from the impulses that a connected group has. `depth` (m) is how deep its deepest contact was,
-  /// known_depth ≥ depth (m), which in space is the measure of rest, that of the deepest of the step. True
-  /// when the states have settled; then impulses and reactions are those of the solution. False, and nothing
-  /// has changed, when they have not; when contacts contradict each other: the solution does not close them,
-  /// or throws one further than known_depth and a hundred times the depth, or along the surface a hundred
-  /// times the way of the fastest that slips; in space also when the elimination would cost more than sweeps
-  /// do.
+  /// Starts from the impulses that a connected group has. `depth` (m) is how deep its deepest contact was;
+  /// known_depth ≥ depth (m), in space that of the deepest of the step so far, is what rest is measured by.
+  /// True when the states have settled; then impulses and reactions are those of the solution. False, and
+  /// nothing has changed, when
+  /// - they have not, or in space a pivot vanishes or something slips along what holds it;
+  /// - contacts contradict each other: the solution does not close them, or throws one further than
+  ///   known_depth and a hundred times the depth, in space along the surface also further than a hundred
+  ///   times the way of the fastest that slips;
+  /// - it would cost too much: a free tool has many contacts, or in space the band is wide.
   bool settle(std::vector<Contact<dim>>& contacts, std::span<const std::int32_t> group,
               ReactionsOfNodes<dim>& nodes, ReactionsOfTools<dim>& tools, double dt, double depth,
               double known_depth);

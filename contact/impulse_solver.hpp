@@ -24,9 +24,9 @@ public:
   /// `tolerance` (m) or 1e-9 of how deep the deepest was, at the latest after `sweeps`. Where many nodes
   /// press on one free tool, each sweep also moves the tool together with all of them, as Gauss-Seidel alone
   /// would need as many sweeps as the contacting nodes are heavier than the tool.
-  /// known_depth (m): what groups that are less deep are measured by, too; that of the deepest contact in
-  /// earlier solutions of the same step, of which the rest may be as small as rounding. Returns the larger of
-  /// it and the depth of the deepest contact, in the plane of those in groups alone.
+  /// known_depth (m): that of the deepest contact in earlier solutions of the same step, by which groups that
+  /// are less deep are measured, too: what is left to a later solution may be as little as rounding. Returns
+  /// the larger of it and the depth of the deepest contact (m), in the plane of those in groups alone.
   double solve(std::vector<Contact<dim>>& contacts, ReactionsOfNodes<dim>& nodes,
                ReactionsOfTools<dim>& tools, double dt, double tolerance, int sweeps,
                double known_depth = 0.0);

@@ -133,6 +133,18 @@ TEST(ContactSystemInSpace, contacts_that_contradict_each_other_are_left_to_sweep
     }
 }
 
+// Friction that lifts a node by as much as the contact presses it down never lets it close while it slips: it
+// jams (Painlevé). The rows of slip are singular then.
+TEST(ContactSystemInSpace, jams_where_slip_would_never_close) {
+  for (const double speed : {1.0, 10.0}) {
+    Scene<3> scene = row_on_plane(1, {speed * bounce, 0.0, 0.0}, 0.5);
+    scene.nodes[0_boundary].inverse << 5, 0, 2, 0, 5, 0, 2, 0, 1;
+    ASSERT_TRUE(settle(scene)) << speed;
+    const Vec3 left = scene.nodes[0_boundary].velocity + scene.nodes[0_boundary].change;
+    EXPECT_LT((left - bounce * Vec3::UnitZ()).norm(), 1e-8 * bounce) << speed;
+  }
+}
+
 // A long row has a narrow band; nodes that all contacts feel make it as wide as the group.
 TEST(ContactSystemInSpace, what_costs_more_than_sweeps_is_left_to_them) {
   Scene<3> narrow = row_on_plane(200, {0.6, -0.8, 0.0}, 0.3);
