@@ -21,7 +21,7 @@ constexpr double most_thrown = 100.0;    ///< times the depth, or the way that t
 constexpr double most_turn = 1.0 - 1e-6; ///< S/|τ| of a contact that hardly slips, as its direction turns
 constexpr double least_pivot = 1e-14;    ///< of what the diagonal was, in space
 constexpr std::size_t most_on_tool = 32; ///< contacts that a free tool couples all with all
-constexpr double most_work = 3e3; ///< multiplications of an elimination in space, a contact: some 50 sweeps
+constexpr double most_work = 3e3;        ///< of an elimination in space, a contact: about 100 sweeps
 
 /// dS/dp of Contact::strength at p ≥ 0.
 template<int dim> double slope(const Contact<dim>& contact, double p) {

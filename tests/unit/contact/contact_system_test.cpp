@@ -118,7 +118,7 @@ TEST(ContactSystemInSpace, slip_turns_where_mobility_is_not_one) {
 
 TEST(ContactSystemInSpace, contacts_that_contradict_each_other_are_left_to_sweeps) {
   for (const double coefficient : {0.0, 0.3})
-    for (const double wedge : {0.0, 1e-9, 1e-3}) { // the tools' faces, all but parallel
+    for (const double wedge : {0.0, 1e-9, 1e-3, 0.02}) { // the tools' faces, all but parallel
       Scene<3> scene = resting_node<3>();
       scene.contacts = {on_tool<3>({0, 0, 1}, depth, {{0_boundary, 1.0}}),
                         on_tool<3>({0, std::sin(wedge), -std::cos(wedge)}, depth, {{0_boundary, 1.0}})};
@@ -129,7 +129,7 @@ TEST(ContactSystemInSpace, contacts_that_contradict_each_other_are_left_to_sweep
       EXPECT_FALSE(settle(scene)) << coefficient << ", " << wedge;
       expect_untouched(scene);
       ImpulseSolver<3>().solve(scene.contacts, scene.nodes, scene.tools, dt, 1e-18, 100);
-      EXPECT_LT(scene.nodes[0_boundary].change.norm() * dt, 2.0 * depth) << coefficient << ", " << wedge;
+      EXPECT_LT(scene.nodes[0_boundary].change.norm() * dt, 5.0 * depth) << coefficient << ", " << wedge;
     }
 }
 
@@ -145,20 +145,31 @@ TEST(ContactSystemInSpace, jams_where_slip_would_never_close) {
   }
 }
 
-// A long row has a narrow band; nodes that all contacts feel make it as wide as the group.
-TEST(ContactSystemInSpace, what_costs_more_than_sweeps_is_left_to_them) {
-  Scene<3> narrow = row_on_plane(200, {0.6, -0.8, 0.0}, 0.3);
-  EXPECT_TRUE(settle(narrow));
-  Scene<3> wide = row_on_plane(20, {0.6, -0.8, 0.0}, 0.3);
-  const std::size_t alone = wide.contacts.size();
-  for (std::size_t c = 0; c < alone; ++c) {
-    Contact<3>& contact = wide.contacts[c];
-    if (contact.node[0] == 0_boundary || contact.weight[1] != 0.0) continue;
-    contact.weight[0] = contact.weight[1] = 0.5;
-    contact.node[1] = 0_boundary;
+// No impulse stops slip along what is held.
+TEST(ContactSystemInSpace, what_slips_along_its_hold_is_left_to_sweeps) {
+  for (const bool along : {false, true}) {
+    Scene<3> scene = row_on_plane(3, {0.6, 0.0, 0.0}, 0.3);
+    for (Reaction<3>& node : scene.nodes) node.inverse(1, 1) = 0.0;
+    for (Contact<3>& contact : scene.contacts) contact.surface = {0.0, along ? 0.8 : 0.0, 0.0};
+    EXPECT_NE(settle(scene), along);
+    if (along) expect_untouched(scene);
   }
-  EXPECT_FALSE(settle(wide));
-  expect_untouched(wide);
+}
+
+// A long row has a narrow band; a node that all contacts share makes it as wide as the group.
+TEST(ContactSystemInSpace, what_costs_more_than_sweeps_is_left_to_them) {
+  Scene<3> row = row_on_plane(200, {0.6, -0.8, 0.0}, 0.3);
+  EXPECT_TRUE(settle(row));
+  for (const auto& [length, settles] : {std::pair(7, true), std::pair(30, false)}) {
+    Scene<3> star = row_on_plane(length, {0.6, -0.8, 0.0}, 0.3);
+    star.contacts.clear();
+    for (int i = 1; i < length; ++i)
+      star.contacts.push_back(
+          on_tool<3>(Vec3::UnitZ(), depth, {{0_boundary, 0.1}, {as<BoundaryNodeIndex>(i), 0.9}}));
+    rub(star, 0.3);
+    EXPECT_EQ(settle(star), settles) << length;
+    if (!settles) expect_untouched(star);
+  }
 }
 
 TEST(ContactSystemInSpace, free_tools_with_many_contacts_are_left_to_sweeps) {
