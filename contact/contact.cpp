@@ -103,12 +103,15 @@ template<int dim> void RigidContact<dim>::correct(const ContactStep<dim>& step) 
     move(poses, step.dt);
     near_.look(surface_, tools_, poses, end_, taken_);
   }
+  double deepest = 0.0; // m; in space, where images of a contact bear one load, so far in the step
   for (int pass = 0; pass < passes; ++pass) {
     from_earlier_passes_ = contacts_.size();
     const bool faces = find_on_faces(poses, step), ridges = find_on_ridges(poses, step),
                bodies = find_on_bodies(poses, step);
     if (!faces && !ridges && !bodies) break;
-    solver_.solve(contacts_, reactions_, tool_reactions_, step.dt, 1e-16 * size_, sweeps);
+    const double depth =
+        solver_.solve(contacts_, reactions_, tool_reactions_, step.dt, 1e-16 * size_, sweeps, deepest);
+    if constexpr (dim == 3) deepest = depth;
     move(poses, step.dt);
     near_.look(surface_, tools_, poses, end_, taken_);
   }

@@ -3,6 +3,7 @@
 #include "contact/sweeper.hpp"
 #include "core/index.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -13,13 +14,17 @@ namespace {
 
 constexpr int rounds = 12;               ///< of states; those that take more rarely settle at all
 constexpr double compliance = 1e-12;     ///< of a contact, over its mobility
+constexpr double isotropic = 1e-9;       ///< by how much less mobilities along two axes are one
 constexpr double linear = 1e-9;          ///< of its strength: what a contact that slips may be off by
 constexpr double contradiction = 1e-6;   ///< of the depth: contacts that stay open by more are not solved
-constexpr double most_thrown = 100.0;    ///< times the depth
+constexpr double most_thrown = 100.0;    ///< times the depth, or the way that the fastest slips
+constexpr double most_turn = 1.0 - 1e-6; ///< S/|τ| of a contact that hardly slips, as its direction turns
+constexpr double least_pivot = 1e-14;    ///< of what the diagonal was, in space
 constexpr std::size_t most_on_tool = 32; ///< contacts that a free tool couples all with all
+constexpr double most_work = 3e3;        ///< of an elimination in space, a contact: about 100 sweeps
 
 /// dS/dp of Contact::strength at p ≥ 0.
-double slope(const Contact<2>& contact, double p) {
+template<int dim> double slope(const Contact<dim>& contact, double p) {
   const double pull = contact.coulomb * p;
   if (contact.smooth) return std::isfinite(pull) ? contact.coulomb * std::exp(-pull / contact.limit) : 0.0;
   return pull < contact.limit ? contact.coulomb : 0.0;
@@ -27,28 +32,22 @@ double slope(const Contact<2>& contact, double p) {
 
 } // namespace
 
-bool ContactSystem::settle(std::vector<Contact<2>>& contacts, std::span<const std::int32_t> group,
-                           ReactionsOfNodes<2>& nodes, ReactionsOfTools<2>& tools, double dt, double depth) {
-  Reaction<2> none;
+template<int dim>
+bool ContactSystem<dim>::settle(std::vector<Contact<dim>>& contacts, std::span<const std::int32_t> group,
+                                ReactionsOfNodes<dim>& nodes, ReactionsOfTools<dim>& tools, double dt,
+                                double depth, double known_depth) {
+  Reaction<dim> none;
   const auto sweeper = [&](std::int32_t c) {
-    Contact<2>& contact = contacts[index_of(c)];
-    return Sweeper<2>(contact, nodes, exists(contact.tool) ? tools[contact.tool] : none, dt);
+    Contact<dim>& contact = contacts[index_of(c)];
+    return Sweeper<dim>(contact, nodes, exists(contact.tool) ? tools[contact.tool] : none, dt);
   };
   member_.clear();
   rubs_ = false;
-  for (const std::int32_t c : group) {
-    const Contact<2>& contact = contacts[index_of(c)];
-    const Sweeper<2> one = sweeper(c);
-    Member& member = member_.emplace_back();
-    member.contact = c;
-    member.axis = {contact.normal, left_normal(contact.normal)};
-    member.given = {contact.pressing, contact.sliding.dot(member.axis[1])};
-    member.velocity = member.before = {one.gap() / dt, one.slip().dot(member.axis[1])};
-    member.mobility = {one.along(member.axis[0]), one.along(member.axis[1])};
-    rubs_ = rubs_ || (contact.coulomb > 0.0 && contact.limit > 0.0) || member.given[1] != 0.0;
-  }
+  for (const std::int32_t c : group)
+    if (!take(c, contacts[index_of(c)], sweeper(c), dt)) return false;
   if (!couple(contacts, nodes, tools)) return false;
   number();
+  if (dim == 3 && static_cast<double>(width() * band_ * band_) > most_work) return false;
   fill();
   look(contacts);
   bool settled = false;
@@ -56,24 +55,87 @@ bool ContactSystem::settle(std::vector<Contact<2>>& contacts, std::span<const st
     if (!solve(contacts)) return false;
     settled = !look(contacts);
   }
-  if (!settled) return false;
+  if (!settled || !consistent(dt, depth, known_depth)) return false;
   for (const Member& member : member_) {
-    if (member.state == State::open) continue;
-    if (!(std::abs(member.velocity[0]) * dt <= contradiction * depth)) return false;
-    if (!(std::abs(member.change[0]) * member.mobility[0] * dt <= most_thrown * depth)) return false;
+    Vec<dim> sliding = member.impulse(1) * member.axis[1];
+    if constexpr (dim == 3) sliding += member.impulse(2) * member.axis[2];
+    sweeper(member.contact).set(std::max(0.0, member.impulse(0)), sliding);
   }
-  for (const Member& member : member_)
-    sweeper(member.contact).set(std::max(0.0, member.impulse(0)), member.impulse(1) * member.axis[1]);
   return true;
 }
 
+/// Lists a member; false where it slips along what holds it, which no impulse stops.
+template<int dim>
+bool ContactSystem<dim>::take(std::int32_t c, const Contact<dim>& contact, const Sweeper<dim>& sweeper,
+                              double dt) {
+  Member& member = member_.emplace_back();
+  member.contact = c;
+  take_axes(member, contact, sweeper);
+  const Vec<dim> slip = sweeper.slip();
+  member.given[0] = contact.pressing;
+  member.velocity[0] = sweeper.gap() / dt;
+  double rubbing = 0.0;
+  for (std::size_t k = 1; k < dim; ++k) {
+    member.given[k] = contact.sliding.dot(member.axis[k]);
+    member.velocity[k] = slip.dot(member.axis[k]);
+    rubbing += std::abs(member.given[k]);
+    if (dim == 3 && member.mobility[k] == 0.0 && member.sideways > 0.0 &&
+        std::abs(member.velocity[k]) > linear * slip.norm())
+      return false;
+  }
+  member.before = member.velocity;
+  rubs_ = rubs_ || (contact.coulomb > 0.0 && contact.limit > 0.0) || rubbing != 0.0;
+  return true;
+}
+
+/// Whether what the last solution closes is closed, what it lets stick sticks, and none is thrown.
+template<int dim> bool ContactSystem<dim>::consistent(double dt, double depth, double known_depth) const {
+  double way = known_depth; // m
+  for (const Member& member : member_)
+    for (std::size_t k = 1; k < width(); ++k) way = std::max(way, std::abs(member.before[k]) * dt);
+  const double thrown = std::max(most_thrown * depth, known_depth);
+  for (const Member& member : member_) {
+    if (member.state == State::open) continue;
+    if (!(std::abs(member.velocity[0]) * dt <= contradiction * known_depth)) return false;
+    if (!(std::abs(member.change[0]) * member.mobility[0] * dt <= thrown)) return false;
+    if constexpr (dim == 3)
+      for (std::size_t k = 1; k < width(); ++k) {
+        if (!(std::abs(member.velocity[k] - member.before[k]) * dt <= most_thrown * way)) return false;
+        if (member.state == State::sticking && !(std::abs(member.velocity[k]) * dt <= contradiction * way))
+          return false;
+      }
+  }
+  return true;
+}
+
+/// Along the surface the principal axes of the mobility, so that one of them is held where nodes are.
+template<int dim>
+void ContactSystem<dim>::take_axes(Member& member, const Contact<dim>& contact,
+                                   const Sweeper<dim>& sweeper) const {
+  const Vec<dim>& n = member.axis[0] = contact.normal;
+  if constexpr (dim == 2) {
+    member.axis[1] = left_normal(n);
+  } else {
+    const Vec3 u = n.unitOrthogonal(), v = n.cross(u);
+    const double uu = sweeper.along(u), vv = sweeper.along(v), across = sweeper.along((u + v).normalized());
+    const double twist = 2.0 * across - uu - vv, apart = uu - vv; // twice the mixed term
+    const double turn =
+        std::hypot(twist, apart) > isotropic * (uu + vv) ? 0.5 * std::atan2(twist, apart) : 0.0;
+    member.axis[1] = std::cos(turn) * u + std::sin(turn) * v;
+    member.axis[2] = n.cross(member.axis[1]);
+  }
+  for (std::size_t k = 0; k < dim; ++k) member.mobility[k] = sweeper.along(member.axis[k]);
+  member.sideways = *std::max_element(member.mobility.begin() + 1, member.mobility.end());
+}
+
 /// Lists the links; false where a free tool makes too many.
-bool ContactSystem::couple(const std::vector<Contact<2>>& contacts, const ReactionsOfNodes<2>& nodes,
-                           const ReactionsOfTools<2>& tools) {
+template<int dim>
+bool ContactSystem<dim>::couple(const std::vector<Contact<dim>>& contacts, const ReactionsOfNodes<dim>& nodes,
+                                const ReactionsOfTools<dim>& tools) {
   end_.clear();
   for (std::size_t m = 0; m < member_.size(); ++m) {
-    const Contact<2>& contact = contacts[index_of(member_[m].contact)];
-    for (std::size_t a = 0; a < Contact<2>::slots; ++a)
+    const Contact<dim>& contact = contacts[index_of(member_[m].contact)];
+    for (std::size_t a = 0; a < Contact<dim>::slots; ++a)
       if (contact.weight[a] != 0.0)
         end_.push_back({mover(nodes, contact.node[a]), as<std::int32_t>(m), contact.weight[a]});
   }
@@ -101,8 +163,8 @@ bool ContactSystem::couple(const std::vector<Contact<2>>& contacts, const Reacti
   return true;
 }
 
-/// Numbers the members breadth first, from one that is far from the first.
-void ContactSystem::number() {
+/// Numbers the members breadth first, from one that is far from the first; knows the band then.
+template<int dim> void ContactSystem<dim>::number() {
   const std::size_t n = member_.size();
   std::sort(link_.begin(), link_.end(), [](const Link& a, const Link& b) {
     return std::pair(a.one, a.other) < std::pair(b.one, b.other);
@@ -124,23 +186,23 @@ void ContactSystem::number() {
     start = queue_.back();
   }
   assert(queue_.size() == n);
-}
-
-std::size_t ContactSystem::row(std::int32_t member, std::size_t k) const {
-  return width() * index_of(place_[index_of(member)]) + k;
-}
-
-/// Such that [column] is an entry of the band.
-double* ContactSystem::row_of(std::vector<double>& matrix, std::size_t row) const {
-  return matrix.data() + row * 2 * band_ + band_;
-}
-
-/// The mobilities: velocities of all members per impulse of each.
-void ContactSystem::fill() {
   std::int32_t apart = 0;
   for (const Link& link : link_)
     apart = std::max(apart, std::abs(place_[index_of(link.one)] - place_[index_of(link.other)]));
   band_ = width() * (index_of(apart) + 1) - 1;
+}
+
+template<int dim> std::size_t ContactSystem<dim>::row(std::int32_t member, std::size_t k) const {
+  return width() * index_of(place_[index_of(member)]) + k;
+}
+
+/// Such that [column] is an entry of the band.
+template<int dim> double* ContactSystem<dim>::row_of(std::vector<double>& matrix, std::size_t row) const {
+  return matrix.data() + row * 2 * band_ + band_;
+}
+
+/// The mobilities: velocities of all members per impulse of each.
+template<int dim> void ContactSystem<dim>::fill() {
   mobility_.assign(width() * member_.size() * (2 * band_ + 1), 0.0);
   for (const Link& link : link_)
     for (std::size_t k = 0; k < width(); ++k)
@@ -149,66 +211,111 @@ void ContactSystem::fill() {
             member_[index_of(link.one)].axis[k].dot(link.inverse * member_[index_of(link.other)].axis[l]);
 }
 
-ContactSystem::State ContactSystem::state_of(const Contact<2>& contact, const Member& member) const {
+/// Of the last solution, with the friction that would let it stick.
+template<int dim>
+typename ContactSystem<dim>::State ContactSystem<dim>::state_of(const Contact<dim>& contact,
+                                                                const Member& member,
+                                                                Vec<dim - 1>& friction) const {
+  friction.setZero();
   if (member.mobility[0] == 0.0) return State::open;
   const double pressing = member.impulse(0) - member.velocity[0] / member.mobility[0];
   if (pressing <= 0.0) return State::open;
   const double strength = contact.strength(pressing);
-  if (!rubs_ || member.mobility[1] == 0.0 || strength <= 0.0) return State::pressing;
-  const double sliding = member.impulse(1) - member.velocity[1] / member.mobility[1];
-  if (std::abs(sliding) <= strength) return State::sticking;
-  return sliding > 0.0 ? State::forwards : State::backwards;
+  if (!rubs_ || member.sideways == 0.0 || strength <= 0.0) return State::pressing;
+  for (std::size_t k = 1; k < dim; ++k)
+    friction[static_cast<Eigen::Index>(k) - 1] =
+        member.impulse(k) - (member.mobility[k] > 0.0 ? member.velocity[k] / member.sideways : 0.0);
+  return friction.norm() <= strength ? State::sticking : State::slipping;
 }
 
 /// Takes the states from the last solution; true when it is not yet one.
-bool ContactSystem::look(const std::vector<Contact<2>>& contacts) {
+template<int dim> bool ContactSystem<dim>::look(const std::vector<Contact<dim>>& contacts) {
   bool changed = false;
   for (Member& member : member_) {
-    const Contact<2>& contact = contacts[index_of(member.contact)];
-    const State state = state_of(contact, member);
+    const Contact<dim>& contact = contacts[index_of(member.contact)];
+    Vec<dim - 1> friction;
+    const State state = state_of(contact, member, friction);
     changed = changed || state != member.state;
     member.state = state;
-    if (state != State::forwards && state != State::backwards) continue;
+    if (state != State::slipping) continue;
+    const Vec<dim - 1> before = member.direction;
+    member.wanted = friction.norm();
+    member.direction = friction / member.wanted;
+    changed = changed || member.direction.dot(before) < 0.0;
     const double strength = contact.strength(member.impulse(0));
-    changed = changed || std::abs(std::abs(member.impulse(1)) - strength) > linear * strength;
+    for (std::size_t k = 1; k < dim; ++k) friction[static_cast<Eigen::Index>(k) - 1] = member.impulse(k);
+    changed = changed || (friction - strength * member.direction).norm() > linear * strength;
   }
   return changed;
 }
 
 /// One equation for each impulse, from the states.
-void ContactSystem::set_rows(const std::vector<Contact<2>>& contacts) {
+template<int dim> void ContactSystem<dim>::set_rows(const std::vector<Contact<dim>>& contacts) {
   matrix_ = mobility_;
   right_.resize(width() * member_.size());
   for (std::size_t m = 0; m < member_.size(); ++m) {
     const Member& member = member_[m];
-    const Contact<2>& contact = contacts[index_of(member.contact)];
     for (std::size_t k = 0; k < width(); ++k) {
       const std::size_t r = row(as<std::int32_t>(m), k);
       double* const entry = row_of(matrix_, r);
-      if (member.state != State::open && (k == 0 || member.state == State::sticking)) { // comes to rest
+      const bool held = k > 0 && member.state == State::sticking && member.mobility[k] == 0.0;
+      if (!held && member.state != State::open &&
+          (k == 0 || member.state == State::sticking)) { // comes to rest
         entry[r] *= 1.0 + compliance;
         right_[r] = -member.before[k];
         continue;
       }
       std::fill(entry + r - band_, entry + r + band_ + 1, 0.0);
       entry[r] = 1.0;
-      right_[r] = -member.given[k];
-      if (k == 1 && (member.state == State::forwards || member.state == State::backwards)) {
-        const double sign = member.state == State::forwards ? 1.0 : -1.0;
-        const double pressing = std::max(0.0, member.impulse(0)), rise = slope(contact, pressing);
-        entry[r - 1] = -sign * rise;
-        right_[r] += sign * (contact.strength(pressing) - rise * (pressing - member.given[0]));
-      }
+      right_[r] = held ? 0.0 : -member.given[k]; // what is held keeps what it bears
+      if (k > 0 && member.state == State::slipping)
+        set_slip(contacts[index_of(member.contact)], as<std::int32_t>(m), k);
     }
   }
 }
 
-/// Gauss's, without pivots: rows that are not the identity have mobilities, which are definite.
-bool ContactSystem::eliminate() {
+/// Friction as large as it can be, against the slip: S(p) τ/|τ|, τ the friction that would let it stick. In
+/// space the direction turns with τ by P/|τ|, P = 1 − direction ⊗ direction; S/|τ| is kept below 1, which it
+/// is at the solution, so that rows stay regular on the way.
+template<int dim>
+void ContactSystem<dim>::set_slip(const Contact<dim>& contact, std::int32_t m, std::size_t k) {
+  const Member& member = member_[index_of(m)];
+  const std::size_t r = row(m, k);
+  double* const entry = row_of(matrix_, r);
+  const auto along = [&](std::size_t l) { return member.direction[static_cast<Eigen::Index>(l) - 1]; };
+  const double pressing = std::max(0.0, member.impulse(0)), rise = slope(contact, pressing),
+               strength = contact.strength(pressing);
+  entry[row(m, 0)] = -along(k) * rise;
+  right_[r] += along(k) * (strength - rise * (pressing - member.given[0]));
+  if constexpr (dim == 3) {
+    const double share = std::min(strength / member.wanted, most_turn);
+    for (std::size_t l = 1; l < dim; ++l) {
+      const double turn = share * ((k == l ? 1.0 : 0.0) - along(k) * along(l)),
+                   moved = turn / member.sideways;
+      const std::size_t other = row(m, l), first = other - std::min(other, band_),
+                        last = std::min(right_.size(), other + band_ + 1);
+      const double* const velocity = row_of(mobility_, other);
+      for (std::size_t c = std::max(first, r - std::min(r, band_)); c < std::min(last, r + band_ + 1); ++c)
+        entry[c] += moved * velocity[c];
+      entry[other] -= turn;
+      right_[r] += moved * (member.velocity[l] - member.before[l]) - turn * member.change[l];
+    }
+  }
+}
+
+/// Gauss's, without pivoting: in the plane all rows that are not the identity have mobilities, which are
+/// definite; in space false where slip and normal impulses couple so that a pivot vanishes.
+template<int dim> bool ContactSystem<dim>::eliminate() {
   const std::size_t n = right_.size();
+  if constexpr (dim == 3) {
+    diagonal_.resize(n);
+    for (std::size_t r = 0; r < n; ++r) diagonal_[r] = std::abs(row_of(matrix_, r)[r]);
+  }
   for (std::size_t r = 0; r < n; ++r) {
     const double* const pivot = row_of(matrix_, r);
     if (pivot[r] == 0.0) return false;
+    if constexpr (dim == 3)
+      if (!(std::abs(pivot[r]) > least_pivot * diagonal_[r])) return false;
     const std::size_t end = std::min(n, r + band_ + 1);
     for (std::size_t below = r + 1; below < end; ++below) {
       double* const entry = row_of(matrix_, below);
@@ -226,7 +333,7 @@ bool ContactSystem::eliminate() {
   return true;
 }
 
-bool ContactSystem::solve(const std::vector<Contact<2>>& contacts) {
+template<int dim> bool ContactSystem<dim>::solve(const std::vector<Contact<dim>>& contacts) {
   set_rows(contacts);
   if (!eliminate()) return false;
   const std::size_t n = right_.size();
@@ -242,5 +349,8 @@ bool ContactSystem::solve(const std::vector<Contact<2>>& contacts) {
     }
   return true;
 }
+
+template class ContactSystem<2>;
+template class ContactSystem<3>;
 
 } // namespace cnem::contact

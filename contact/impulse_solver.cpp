@@ -64,8 +64,10 @@ template<int dim> double Contact<dim>::strength(double at) const {
 }
 
 template<int dim>
-void ImpulseSolver<dim>::solve(std::vector<Contact<dim>>& contacts, ReactionsOfNodes<dim>& nodes,
-                               ReactionsOfTools<dim>& tools, double dt, double tolerance, int sweeps) {
+double ImpulseSolver<dim>::solve(std::vector<Contact<dim>>& contacts, ReactionsOfNodes<dim>& nodes,
+                                 ReactionsOfTools<dim>& tools, double dt, double tolerance, int sweeps,
+                                 double known_depth) {
+  double deepest = known_depth;
   groups_.divide(contacts, nodes, tools);
   Reaction<dim> none; // the tool of contacts between nodes alone: it takes no impulse
   const auto sweeper = [&](std::int32_t c) {
@@ -75,6 +77,7 @@ void ImpulseSolver<dim>::solve(std::vector<Contact<dim>>& contacts, ReactionsOfN
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const std::span<const std::int32_t> group = groups_[g];
     if (Sweeper<dim> only = sweeper(group[0]); group.size() == 1 && only.isotropic()) {
+      if constexpr (dim == 3) deepest = std::max(deepest, -only.gap());
       only.press();
       only.rub();
       continue;
@@ -85,7 +88,9 @@ void ImpulseSolver<dim>::solve(std::vector<Contact<dim>>& contacts, ReactionsOfN
       depth = std::max(depth, -sweeper(c).gap());
       mobility_.push_back(sweeper(c).along(contacts[index_of(c)].normal));
     }
-    const double least = std::max(tolerance, relative * depth);
+    deepest = std::max(deepest, depth);
+    const double measure = std::max(depth, known_depth);
+    const double least = std::max(tolerance, relative * measure);
     int next = sweeps_before;
     for (int sweep = 1; sweep <= sweeps; ++sweep) {
       double moved = 0.0;
@@ -98,13 +103,13 @@ void ImpulseSolver<dim>::solve(std::vector<Contact<dim>>& contacts, ReactionsOfN
         if (!tools[t].inverse.isZero(0.0))
           moved = std::max(moved, shift_tool(contacts, group, nodes, tools[t], t, dt));
       if (moved <= least) break;
-      if constexpr (dim == 2)
-        if (sweep == next) {
-          system_.settle(contacts, group, nodes, tools, dt, depth);
-          next *= 3;
-        }
+      if (sweep == next) {
+        system_.settle(contacts, group, nodes, tools, dt, depth, measure);
+        next *= 3;
+      }
     }
   }
+  return deepest;
 }
 
 template struct Contact<2>;

@@ -24,12 +24,16 @@ public:
   /// `tolerance` (m) or 1e-9 of how deep the deepest was, at the latest after `sweeps`. Where many nodes
   /// press on one free tool, each sweep also moves the tool together with all of them, as Gauss-Seidel alone
   /// would need as many sweeps as the contacting nodes are heavier than the tool.
-  void solve(std::vector<Contact<dim>>& contacts, ReactionsOfNodes<dim>& nodes, ReactionsOfTools<dim>& tools,
-             double dt, double tolerance, int sweeps);
+  /// known_depth (m): that of the deepest contact in earlier solutions of the same step, by which groups that
+  /// are less deep are measured, too: what is left to a later solution may be as little as rounding. Returns
+  /// the larger of it and the depth of the deepest contact (m), in the plane of those in groups alone.
+  double solve(std::vector<Contact<dim>>& contacts, ReactionsOfNodes<dim>& nodes,
+               ReactionsOfTools<dim>& tools, double dt, double tolerance, int sweeps,
+               double known_depth = 0.0);
 
 private:
   ContactGroups<dim> groups_;
-  ContactSystem system_;
+  ContactSystem<dim> system_;
   std::vector<double> mobility_; ///< 1/kg, of the contacts of a group along their normals
 };
 

@@ -1,8 +1,6 @@
 // Impulses of contacts that feel each other, against sweeps of projected Gauss-Seidel that went on until they
 // stood still.
-#include "contact/impulse_solver.hpp"
-#include "contact/sweeper.hpp"
-#include "masses.hpp"
+#include "tests/unit/contact/impulse_scenes.hpp"
 
 #include <gtest/gtest.h>
 #include <random>
@@ -13,39 +11,10 @@ using namespace cnem::contact::testing;
 
 namespace {
 
-constexpr double dt = 1e-3;
-
-/// Contacts of nodes and of facets between them with one another, as under a rounded edge: a chain.
-struct Scene {
-  std::vector<Contact<2>> contacts;
-  ReactionsOfNodes<2> nodes;
-  ReactionsOfTools<2> tools;
-
-  double deepest() {
-    double depth = 0.0;
-    for (Contact<2>& contact : contacts)
-      depth = std::max(depth, -Sweeper<2>(contact, nodes, tools[0_tool], dt).gap());
-    return depth;
-  }
-};
-
-Contact<2> on_tool(const Vec2& normal, double depth, std::vector<std::pair<BoundaryNodeIndex, double>> ends) {
-  Contact<2> contact;
-  contact.tool = 0_tool;
-  contact.normal = normal;
-  contact.level = depth; // nodes are predicted at 0
-  for (std::size_t a = 0; a < ends.size(); ++a) {
-    contact.node[a] = ends[a].first;
-    contact.weight[a] = ends[a].second;
-  }
-  return contact;
-}
-
-enum class Law { none, coulomb, tresca, smooth };
-
-Scene chain(int length, Law law, double coefficient, std::mt19937& random) {
+/// Nodes and the facets between them, as under a rounded edge.
+Scene<2> chain(int length, Law law, double coefficient, std::mt19937& random) {
   std::uniform_real_distribution<double> any(0.0, 1.0);
-  Scene scene;
+  Scene<2> scene;
   scene.tools.resize(1);
   for (int i = 0; i < length; ++i) {
     Reaction<2> node;
@@ -57,72 +26,13 @@ Scene chain(int length, Law law, double coefficient, std::mt19937& random) {
   for (int i = 0; i < length; ++i) {
     const auto b = as<BoundaryNodeIndex>(i), next = as<BoundaryNodeIndex>(i + 1);
     if (any(random) < 0.8)
-      scene.contacts.push_back(on_tool(normal(i), 1e-3 * (any(random) - 0.2), {{b, 1.0}}));
+      scene.contacts.push_back(on_tool<2>(normal(i), 1e-3 * (any(random) - 0.2), {{b, 1.0}}));
     if (i + 1 == length) continue;
     const double s = any(random);
-    scene.contacts.push_back(on_tool(normal(i + 0.5), 1e-3 * (any(random) - 0.2), {{b, 1.0 - s}, {next, s}}));
+    scene.contacts.push_back(
+        on_tool<2>(normal(i + 0.5), 1e-3 * (any(random) - 0.2), {{b, 1.0 - s}, {next, s}}));
   }
-  for (Contact<2>& contact : scene.contacts) {
-    contact.surface = Vec2(0.2, 0.0);
-    contact.coulomb = law == Law::tresca ? infinite : law == Law::none ? 0.0 : coefficient;
-    contact.limit = law == Law::tresca || law == Law::smooth ? 0.05 * any(random) : infinite;
-    contact.smooth = law == Law::smooth;
-  }
-  return scene;
-}
-
-/// Until nothing moves by more than rounding.
-void sweep_until_rest(Scene& scene) {
-  for (int n = 0; n < 2000000; ++n) {
-    double moved = 0.0;
-    for (Contact<2>& contact : scene.contacts) {
-      Sweeper<2> sweeper(contact, scene.nodes, scene.tools[0_tool], dt);
-      moved = std::max({moved, sweeper.press(), sweeper.rub()});
-    }
-    if (moved < 1e-18) return;
-  }
-  FAIL() << "Gauss-Seidel does not come to rest";
-}
-
-void expect_solved(Scene& scene, double depth) {
-  for (Contact<2>& contact : scene.contacts) {
-    const Sweeper<2> sweeper(contact, scene.nodes, scene.tools[0_tool], dt);
-    EXPECT_GE(sweeper.gap(), -1e-8 * depth);
-    EXPECT_GE(contact.pressing, 0.0);
-    if (contact.pressing > 0.0) { EXPECT_LE(sweeper.gap(), 1e-8 * depth) << "nothing presses at a distance"; }
-    EXPECT_LE(contact.sliding.norm(), contact.strength() * (1.0 + 1e-9)) << "within the cone";
-    if (contact.sliding.norm() < contact.strength() * (1.0 - 1e-6)) {
-      EXPECT_LE(sweeper.slip().norm() * dt, 1e-7 * depth) << "what does not slip sticks";
-    } else {
-      EXPECT_LE(contact.sliding.dot(sweeper.slip()), 1e-9 * contact.strength()) << "against the slip";
-    }
-  }
-}
-
-/// Momentum of nodes and tools that impulses have given, less the impulses.
-Vec2 lost_momentum(const Scene& scene) {
-  Vec2 lost = Vec2::Zero();
-  for (const Reaction<2>& node : scene.nodes) lost += node.change / node.inverse(0, 0);
-  for (const Contact<2>& contact : scene.contacts) lost -= contact.impulse();
-  return lost;
-}
-
-/// Largest difference of velocities, over the largest change of one.
-double difference(const Scene& scene, const Scene& other) {
-  double largest = 0.0, apart = 0.0;
-  for (const BoundaryNodeIndex b : scene.nodes.indices()) {
-    largest = std::max(largest, other.nodes[b].change.norm());
-    apart = std::max(apart, (scene.nodes[b].change - other.nodes[b].change).norm());
-  }
-  return largest > 0.0 ? apart / largest : apart;
-}
-
-/// A node of 1 kg at rest, no contacts.
-Scene resting_node() {
-  Scene scene;
-  scene.tools.resize(1);
-  scene.nodes.resize(1);
-  scene.nodes[0_boundary].inverse = Mat2::Identity();
+  set_law(scene, law, coefficient, random);
   return scene;
 }
 
@@ -133,9 +43,9 @@ TEST(ImpulseSolver, agrees_with_sweeps_that_have_come_to_rest) {
   for (const Law law : {Law::none, Law::coulomb, Law::tresca, Law::smooth})
     for (const int length : {1, 2, 5, 40})
       for (int trial = 0; trial < 10; ++trial) {
-        Scene scene = chain(length, law, 0.3, random), swept = scene;
+        Scene<2> scene = chain(length, law, 0.3, random), swept = scene;
         const double depth = scene.deepest();
-        sweep_until_rest(swept);
+        ASSERT_TRUE(sweep_until_rest(swept));
         ImpulseSolver<2>().solve(scene.contacts, scene.nodes, scene.tools, dt, 1e-18, 100);
         expect_solved(scene, depth);
         EXPECT_LT(lost_momentum(scene).norm(), 1e-13 * length);
@@ -149,7 +59,7 @@ TEST(ImpulseSolver, needs_few_sweeps) {
   int few = 0;
   constexpr int trials = 50;
   for (int trial = 0; trial < trials; ++trial) {
-    Scene scene = chain(20, Law::coulomb, 0.2, random), solved = scene;
+    Scene<2> scene = chain(20, Law::coulomb, 0.2, random), solved = scene;
     ImpulseSolver<2>().solve(solved.contacts, solved.nodes, solved.tools, dt, 1e-18, 1000);
     ImpulseSolver<2>().solve(scene.contacts, scene.nodes, scene.tools, dt, 1e-18, 3);
     few += difference(scene, solved) < 1e-7;
@@ -158,11 +68,11 @@ TEST(ImpulseSolver, needs_few_sweeps) {
 }
 
 TEST(ImpulseSolver, redundant_contacts_bear_what_one_would) {
-  Scene one = resting_node(), both = one;
-  one.contacts = {on_tool({0, 1}, 1e-3, {{0_boundary, 1.0}})};
-  both.contacts = {one.contacts[0], one.contacts[0], on_tool({0.6, 0.8}, 1e-3, {{0_boundary, 1.0}})};
+  Scene<2> one = resting_node<2>(), both = one;
+  one.contacts = {on_tool<2>({0, 1}, 1e-3, {{0_boundary, 1.0}})};
+  both.contacts = {one.contacts[0], one.contacts[0], on_tool<2>({0.6, 0.8}, 1e-3, {{0_boundary, 1.0}})};
   one.contacts.push_back(both.contacts[2]);
-  for (Scene* scene : {&one, &both})
+  for (Scene<2>* scene : {&one, &both})
     ImpulseSolver<2>().solve(scene->contacts, scene->nodes, scene->tools, dt, 1e-18, 100);
   EXPECT_LT(difference(one, both), 1e-9);
   EXPECT_LT((both.nodes[0_boundary].change * dt - Vec2(1e-3 / 3.0, 1e-3)).norm(), 1e-12);
@@ -170,9 +80,9 @@ TEST(ImpulseSolver, redundant_contacts_bear_what_one_would) {
 
 TEST(ImpulseSolver, a_node_without_room_is_not_thrown) {
   for (const double wedge : {0.0, 1e-9, 1e-3}) { // the tools' faces, all but parallel
-    Scene scene = resting_node();
-    scene.contacts = {on_tool({0, 1}, 1e-3, {{0_boundary, 1.0}}),
-                      on_tool({std::sin(wedge), -std::cos(wedge)}, 1e-3, {{0_boundary, 1.0}})};
+    Scene<2> scene = resting_node<2>();
+    scene.contacts = {on_tool<2>({0, 1}, 1e-3, {{0_boundary, 1.0}}),
+                      on_tool<2>({std::sin(wedge), -std::cos(wedge)}, 1e-3, {{0_boundary, 1.0}})};
     ImpulseSolver<2>().solve(scene.contacts, scene.nodes, scene.tools, dt, 1e-18, 100);
     EXPECT_LT(scene.nodes[0_boundary].change.norm() * dt, 2e-3) << wedge;
   }
@@ -181,12 +91,12 @@ TEST(ImpulseSolver, a_node_without_room_is_not_thrown) {
 // A face in a plane of symmetry that rounding has tilted presses along what its nodes are free to do.
 TEST(ImpulseSolver, what_is_held_but_for_rounding_takes_no_impulse) {
   for (const auto& [tilt, throws] : {std::pair(2e-5, false), std::pair(0.01, true)}) {
-    Scene scene;
+    Scene<2> scene;
     scene.tools.resize(1);
     Reaction<2> node;
     node.inverse = Vec2(1, 0).asDiagonal(); // held in y
     scene.nodes.push_back(node);
-    scene.contacts.push_back(on_tool(Vec2(tilt, 1).normalized(), 1e-9, {{0_boundary, 1.0}}));
+    scene.contacts.push_back(on_tool<2>(Vec2(tilt, 1).normalized(), 1e-9, {{0_boundary, 1.0}}));
     ImpulseSolver<2>().solve(scene.contacts, scene.nodes, scene.tools, dt, 1e-18, 100);
     EXPECT_EQ(scene.contacts[0].pressing > 0.0, throws) << tilt;
   }
