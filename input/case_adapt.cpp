@@ -14,7 +14,6 @@ void read_plane(const Setting& table, Adaptation& rules) {
   rules.cracks = table.get<bool>("cracks");
   rules.thinnest_film = table.get<double>("thinnest_film");
   rules.placement = table.choice<adapt::Placement>("placement");
-  rules.tool_spacing = table.maybe<double>("tool_spacing");
   rules.surface_spacing = table.maybe<double>("surface_spacing");
   rules.rest_factor = table.get<double>("rest_factor");
 }
@@ -40,6 +39,7 @@ void read_adaptation(Setting& root, Case& result, Diagnostics& diagnostics) {
   Adaptation& rules = result.adapt;
   rules.resample = table.get<bool>("resample");
   rules.separate = table.get<bool>("separate");
+  rules.tool_spacing = table.maybe<double>("tool_spacing");
   rules.quiet_every = static_cast<int>(table.get<std::int64_t>("quiet_every"));
   if (result.analysis.dimensions() == 2) read_plane(table, rules);
   read_indicator(table, rules);

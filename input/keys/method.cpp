@@ -163,9 +163,9 @@ void add_adaptation(Keys& k) {
   k.add("adapt.growth", quantity, "How fast the wanted spacing may change: per unit of distance.")
       .in({.low = 0.0, .high = 1.0, .low_open = true})
       .fallback("0.3");
-  k.add(
-       "adapt.tool_spacing", quantity,
-       "Wanted spacing at corners and arcs of tools, from where it grows; about half the radius of the edge.")
+  k.add("adapt.tool_spacing", quantity,
+        "Wanted spacing at corners and arcs of tools (in space at their convex edges and corners), from "
+        "where it grows; about half the radius of the edge.")
       .unit(d::length)
       .in(positive)
       .example("\"0.02 mm\"");

@@ -19,6 +19,7 @@ const std::vector<SmallCase>& small_cases();
 /// sheared until it parts, a slab between periodic planes, and a slot between them that closes.
 std::string space_case();
 std::string space_refined();
+std::string space_edge();
 std::string space_sheared();
 std::string space_periodic();
 std::string space_images();

@@ -375,6 +375,7 @@ const std::vector<SmallCase>& small_cases() {
       {"touching_triangles", with_method(touching, "name = \"fe-triangles\"\n")},
       {"space", space_case()},
       {"space_refined", space_refined()},
+      {"space_edge", space_edge()},
       {"space_sheared", space_sheared()},
       {"space_periodic", space_periodic()},
       {"space_images", space_images()},

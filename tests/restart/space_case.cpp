@@ -86,6 +86,25 @@ plane = { at = "0 0 0 mm", normal = "0 0 1" }
          testing::steel_304l;
 }
 
+// A block into which the edge of a box goes: nodes come where it stands.
+std::string space_edge() {
+  return in_space("1.5 us", R"(from = "0 0 0 mm", to = "1 0.4 0.5 mm")", "0.2 mm") + R"toml(
+[method]
+rereference = { every = 20, strain = 0.25 }
+[adapt]
+resample = true
+tool_spacing = "0.08 mm"
+[boundary.bed]
+pieces = ["z-"]
+velocity = "0 0 0 m/s"
+[tools.box]
+shape = "box"
+box = { from = "-1 -1 0.5 mm", to = "0.4 2 2 mm" }
+velocity = ["0 m/s", "0 m/s", "-50 m/s"]
+)toml" + frequent_output +
+         testing::steel_304l;
+}
+
 // A strip that a punch with a mass shears off over a die: the cloud follows, breaks and parts; its parts
 // touch.
 std::string space_sheared() {

@@ -36,6 +36,14 @@ TEST(SpaceRefined, halves_cells_at_the_foot) {
   EXPECT_LT(std::abs(metric.at("adapt.mass_error")), 1e-12);
 }
 
+TEST(SpaceEdge, nodes_come_where_the_tool_is_before_the_first_step_and_after) {
+  const auto metric = finished("space_edge").metric;
+  EXPECT_GT(metric.at("adapt.inserted_boundary"), 25.0);
+  EXPECT_GT(metric.at("adapt.inserted"), 5.0);
+  EXPECT_EQ(metric.at("adapt.undone"), 0.0);
+  EXPECT_LT(std::abs(metric.at("adapt.mass_error")), 1e-12);
+}
+
 TEST(SpaceSheared, parts_once_and_every_pass_succeeds) {
   const auto [ending, metric] = finished("space_sheared");
   EXPECT_EQ(metric.at("adapt.cuts"), 1.0);

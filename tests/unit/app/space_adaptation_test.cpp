@@ -122,6 +122,7 @@ tool_spacing = "0.08 mm"
 [cloud]
 spacing = "0.25 mm"
 [tools.box]
+shape = "box"
 box = { from = "-3 -1 1.001 mm", to = "0.4 2 3 mm" }
 velocity = ["5 km/s", "0 m/s", "0 m/s"]
 friction = { law = "none" }
