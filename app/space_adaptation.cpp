@@ -3,10 +3,11 @@
 #include "adapt/space/indicator.hpp"
 #include "app/adaptation_parts.hpp"
 #include "app/problem/bodies.hpp"
+#include "app/tool_tips.hpp"
 #include "clouds/space/domain.hpp"
 #include "core/error.hpp"
 #include "core/index.hpp"
-#include "core/parameter.hpp"
+#include "core/machine/parallel.hpp"
 #include "voronoi/space/tetrahedra.hpp"
 
 #include <algorithm>
@@ -14,7 +15,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <initializer_list>
-#include <optional>
 
 namespace cnem::app {
 namespace {
@@ -89,7 +89,7 @@ SpaceAdaptation::SpaceAdaptation(const input::Case& input, const ExplicitSolver<
   if (!active()) return;
   const clouds::SpaceSpacing spacing{input.cloud.spacing, input.cloud.space_refinements};
   for (const Vec3& x : solver.conditions().cloud.position) size_.push_back(spacing.at(x));
-  if (follows()) wanted_ = size_;
+  if (input.adapt.indicator) wanted_ = size_;
 }
 
 void SpaceAdaptation::start_log(const std::filesystem::path& folder) {
@@ -100,37 +100,37 @@ void SpaceAdaptation::resume_log(const std::filesystem::path& folder) {
   if (active()) log_.resume(folder, results::history_units(input_->analysis), 3);
 }
 
-double SpaceAdaptation::tool_limit(const ExplicitSolver<3>& solver, const Vec3& x) const {
-  const contact::RigidContact<3>& contact = solver.conditions().contact;
-  double nearest = infinite;
-  for (const ToolIndex t : contact.tools().indices())
-    for (const contact::Ridge<3>& ridge : contact.tools()[t].shape->ridges())
-      nearest = std::min(nearest, ridge.clearance(x - contact.results()[t].displacement));
-  return *input_->adapt.tool_spacing + input_->adapt.growth * nearest;
+Field SpaceAdaptation::refined_spacing(const ExplicitSolver<3>& solver, const Cloud<3>& cloud) {
+  const input::Adaptation& rules = input_->adapt;
+  const scni::CellKind cells = input_->method.options.cells;
+  adapt::SpaceStructure structure;
+  adapt::Indicator indicator;
+  try {
+    structure =
+        adapt::structure_of(cloud, voronoi::connected(cloud, tetrahedra(solver.approximation())), cells);
+    indicator = adapt::indicator(cloud, structure, cells, rules.indicator->values(solver.state().point));
+  } catch (const GeometryError&) { // where nodes have passed each other there is nothing to estimate on
+    estimate_.skip();
+    return wanted_;
+  }
+  estimate_.mark<3>(rules, cloud, structure, std::move(indicator), size_);
+  Field wanted = size_;
+  limit_at_tools(solver, cloud, wanted);
+  adapt::limit_growth<3>(cloud, structure, rules.growth, wanted);
+  return wanted;
 }
 
-Field SpaceAdaptation::wanted_spacing(const ExplicitSolver<3>& solver, const Cloud<3>& cloud) {
+void SpaceAdaptation::limit_at_tools(const ExplicitSolver<3>& solver, const Cloud<3>& cloud,
+                                     Field& wanted) const {
   const input::Adaptation& rules = input_->adapt;
-  std::optional<adapt::SpaceStructure> structure;
-  if (rules.indicator) {
-    const scni::CellKind cells = input_->method.options.cells;
-    adapt::Indicator indicator;
-    try {
-      structure =
-          adapt::structure_of(cloud, voronoi::connected(cloud, tetrahedra(solver.approximation())), cells);
-      indicator = adapt::indicator(cloud, *structure, cells, rules.indicator->values(solver.state().point));
-    } catch (const GeometryError&) { // where nodes have passed each other there is nothing to estimate on
-      estimate_.skip();
-      return wanted_;
-    }
-    estimate_.mark<3>(rules, cloud, *structure, std::move(indicator), size_);
-  }
-  Field wanted = size_;
-  if (rules.tool_spacing)
-    for (std::size_t i = 0; i < wanted.size(); ++i)
-      wanted[i] = std::min(wanted[i], tool_limit(solver, cloud.position[as<NodeIndex>(i)]));
-  if (structure) adapt::limit_growth<3>(cloud, *structure, rules.growth, wanted);
-  return wanted;
+  if (!rules.tool_spacing) return;
+  for_each_block(wanted.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      if (const double reach = (wanted[i] - *rules.tool_spacing) / rules.growth; reach > 0.0)
+        wanted[i] = *rules.tool_spacing +
+                    rules.growth * distance_from_ridges(solver.conditions().contact,
+                                                        cloud.position[as<NodeIndex>(i)], reach);
+  });
 }
 
 double SpaceAdaptation::renew(ExplicitSolver<3>& solver, const Follow& follow) {
@@ -144,13 +144,14 @@ double SpaceAdaptation::renew(ExplicitSolver<3>& solver, const Follow& follow) {
   const Field size_before = size_;
   const Estimate estimate_before = estimate_;
   try {
-    const Field wanted = follows() ? wanted_spacing(solver, cloud) : size_;
+    Field wanted = input_->adapt.indicator ? refined_spacing(solver, cloud) : size_;
+    limit_at_tools(solver, cloud, wanted);
     adapt::NodeProperties properties = node_properties(*input_, solver, wanted);
     hold_points(cloud, solver.conditions().supports, properties.held);
     keep_bodies_apart(solver.approximation().links, properties);
     const Resampling<3> change = adapt::resample(cloud, std::move(properties), rules, report);
     solver.prepare(change);
-    if (follows()) {
+    if (input_->adapt.indicator) {
       wanted_ = wanted;
       for (Field* label : {&wanted_, &estimate_.error()})
         if (!label->empty()) carry_label(change.labels, *label);
@@ -170,11 +171,13 @@ double SpaceAdaptation::renew(ExplicitSolver<3>& solver, const Follow& follow) {
 }
 
 void SpaceAdaptation::fit_to_tools(ExplicitSolver<3>& solver, const Follow& follow) {
-  if (!input_->adapt.tool_spacing) return;
+  if (!input_->adapt.tool_spacing || !have_ridges(solver.conditions().contact)) return;
   constexpr int most = 20;
   for (int pass = 0; pass < most; ++pass) {
     const int inserted = total_.inserted + total_.inserted_boundary;
-    renew(solver, follow);
+    try {
+      renew(solver, follow);
+    } catch (const GeometryError&) { break; } // passes of the run go on with it
     if (total_.inserted + total_.inserted_boundary == inserted) break;
   }
 }
@@ -195,11 +198,11 @@ void SpaceAdaptation::archive(Archive& archive) {
   archive.integer("run/adapt/nodes", nodes);
   size_.resize(nodes);
   archive.field("run/adapt/size", "m", size_);
-  if (follows()) {
+  if (input_->adapt.indicator) {
     wanted_.resize(nodes);
     archive.field("run/adapt/wanted", "m", wanted_);
+    estimate_.archive(archive, nodes);
   }
-  if (input_->adapt.indicator) estimate_.archive(archive, nodes);
   archive.integer("run/adapt/passes", passes_);
   log_.archive(archive);
   for (const auto& [name, count] : counts)

@@ -32,7 +32,8 @@ public:
   /// share of the nodes that came or went. Throws GeometryError with the solver left as it was, IoError.
   double renew(ExplicitSolver<3>& solver, const Follow& follow);
 
-  /// Renews until tools have the nodes that the case wants at them, before the first step. Throws as `renew`.
+  /// Renews until tools have the nodes that the case wants at them, before the first step, or until a pass
+  /// fails. Throws IoError.
   void fit_to_tools(ExplicitSolver<3>& solver, const Follow& follow);
 
   /// Sums over the run, for status.json.
@@ -40,15 +41,14 @@ public:
   void archive(Archive& archive);
 
 private:
-  bool follows() const { return input_->adapt.indicator || input_->adapt.tool_spacing; }
-  /// m, [node], at tools and after an estimate, with growth limited.
-  Field wanted_spacing(const ExplicitSolver<3>& solver, const Cloud<3>& cloud);
-  /// m, of adapt.tool_spacing at x.
-  double tool_limit(const ExplicitSolver<3>& solver, const Vec3& x) const;
+  /// Wanted spacing after an estimate on a cloud, m, [node]: with growth limited.
+  Field refined_spacing(const ExplicitSolver<3>& solver, const Cloud<3>& cloud);
+  /// Lowers it as adapt.tool_spacing says.
+  void limit_at_tools(const ExplicitSolver<3>& solver, const Cloud<3>& cloud, Field& wanted) const;
 
   const input::Case* input_;
   Field size_;   ///< [node] m, wanted spacing before growth
-  Field wanted_; ///< [node] m, of the last pass; where it is another one
+  Field wanted_; ///< [node] m, of the last pass; with an indicator
   Estimate estimate_;
   adapt::PassReport total_;
   std::int64_t passes_ = 0;

@@ -25,4 +25,20 @@ double squared_distance(const std::vector<Vec2>& tips, const Vec2& shift, const 
   return nearest;
 }
 
+double distance_from_ridges(const contact::RigidContact<3>& contact, const Vec3& x, double most) {
+  for (const ToolIndex t : contact.tools().indices()) {
+    const contact::ToolShape<3>& shape = *contact.tools()[t].shape;
+    const Vec3 at = x - contact.results()[t].displacement;
+    const Box<3> box = shape.bounds();
+    if ((box.low - at).cwiseMax(at - box.high).cwiseMax(0.0).norm() >= most) continue;
+    for (const contact::Ridge<3>& ridge : shape.ridges()) most = std::min(most, ridge.clearance(at));
+  }
+  return most;
+}
+
+bool have_ridges(const contact::RigidContact<3>& contact) {
+  return std::any_of(contact.tools().begin(), contact.tools().end(),
+                     [](const contact::Tool<3>& tool) { return !tool.shape->ridges().empty(); });
+}
+
 } // namespace cnem::app

@@ -28,6 +28,14 @@ double Ridge<2>::sharpness(double l) const {
   return chord > 0.0 ? smooth_step(l / chord - 1.0) : 1.0;
 }
 
+double Ridge<2>::distance(const Vec2& x) const {
+  const Vec2 off = x - centre;
+  const double from_centre = off.norm();
+  if (from_centre > 0.0 && faces(off / from_centre)) return std::abs(from_centre - radius);
+  const Vec2 last = Eigen::Rotation2Dd(angle) * first;
+  return std::min((off - radius * first).norm(), (off - radius * last).norm());
+}
+
 Ridge<3>::Place Ridge<3>::at(double along) const {
   const Vec3 w = v.cross(u);
   if (path != Path::circular)
@@ -60,7 +68,10 @@ double Ridge<3>::clearance(const Vec3& x) const {
     along = turn_towards(x); // beyond the end: the nearer one
     if (along > length) along = along - length < full_turn - along ? length : 0.0;
   }
-  return std::max(0.0, (x - at(along).centre).norm() - section.radius);
+  const Place place = at(along);
+  const Vec3 off = x - place.centre;
+  const Ridge<2> across{{0, 0}, section.radius, section.first, section.angle};
+  return std::hypot(across.distance({off.dot(place.u), off.dot(v)}), off.dot(place.tangent));
 }
 
 double Ridge<3>::turn_towards(const Vec3& x) const {

@@ -31,6 +31,8 @@ template<> struct Ridge<2> {
   /// How far a chord of length l with both ends on the ridge lies inside the tool, m; never more than the
   /// whole ridge allows, so that it vanishes with the radius.
   double sagitta(double l) const;
+  /// m, of a point from the arc, on either side.
+  double distance(const Vec2& x) const;
   /// How far an edge of length l meets the ridge as a corner: 0 where it is no longer than the chord of the
   /// whole arc, 1 from twice that on, smooth between.
   double sharpness(double l) const;
@@ -76,7 +78,7 @@ template<> struct Ridge<3> {
   double turn_towards(const Vec3& x) const;
   /// m, of a point from the line or circle of the path, as if it went on without end; not of a corner.
   double distance(const Vec3& x) const;
-  /// m, of a point from the ridge, which ends; 0 within its radius.
+  /// m, of a point from the surface of the ridge, which ends.
   double clearance(const Vec3& x) const;
   /// How far the middle of an edge of length l (m) may be from the path for the edge to be met: crossings lie
   /// up to a tenth of l beside it, above the ridge or up to half of l deep.

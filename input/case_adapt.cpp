@@ -51,6 +51,12 @@ void read_adaptation(Setting& root, Case& result, Diagnostics& diagnostics) {
     const Setting* key = root.find(path);
     if (key) diagnostics.add(Mistake::conflict, key->where, key->path, why);
   };
+  const auto flat = [](const Tool& tool) { return tool.solid->shape == ToolSolid::Shape::half_space; };
+  if (rules.tool_spacing && result.analysis.dimensions() == 3 &&
+      std::all_of(result.tools.begin(), result.tools.end(), flat))
+    conflict("adapt.tool_spacing",
+             "found a spacing at tools none of which has an edge, expected a tool of another "
+             "shape than \"half-space\"");
   const bool damage =
       std::any_of(result.materials.begin(), result.materials.end(),
                   [](const plasticity::Material& material) { return material.damage.has_value(); });

@@ -5,6 +5,9 @@
 #include "app/forecast/shear_plane.hpp"
 #include "app/forecast/wanted_nodes.hpp"
 #include "app/plausibility/list.hpp"
+#include "app/tool_tips.hpp"
+#include "clouds/space/domain.hpp"
+#include "core/index.hpp"
 #include "input/curve_checks.hpp"
 #include "input/cutting_tool.hpp"
 
@@ -176,6 +179,28 @@ std::vector<Stretch> course_of_blanking(const input::Case& input, const Explicit
   return course;
 }
 
+/// What adapt.tool_spacing adds in space: Σ V (1/h³ − 1/h0³) over 4³ parts of each cell, taken for a cube.
+double nodes_at_ridges(const input::Case& input, const ExplicitSolver<3>& solver) {
+  const contact::RigidContact<3>& contact = solver.conditions().contact;
+  const clouds::SpaceSpacing spacing{input.cloud.spacing, input.cloud.space_refinements};
+  const Field volume = solver.approximation().mechanics.node_volume();
+  const double fine = *input.adapt.tool_spacing, growth = input.adapt.growth;
+  constexpr int parts = 4;
+  double nodes = 0.0;
+  for (const NodeIndex i : solver.conditions().cloud.position.indices()) {
+    const Vec3& x = solver.conditions().cloud.position[i];
+    const double h0 = spacing.at(x), reach = (h0 - fine) / growth, edge = std::cbrt(volume[index_of(i)]);
+    if (reach <= 0.0 || distance_from_ridges(contact, x, reach + edge) >= reach + edge) continue;
+    for (int part = 0; part < parts * parts * parts; ++part) {
+      const Vec3 place(part % parts, part / parts % parts, part / (parts * parts));
+      const Vec3 at = x + edge * ((place.array() + 0.5) / parts - 0.5).matrix();
+      const double h = fine + growth * distance_from_ridges(contact, at, reach);
+      nodes += volume[index_of(i)] / (parts * parts * parts) * (std::pow(h, -3.0) - std::pow(h0, -3.0));
+    }
+  }
+  return nodes;
+}
+
 } // namespace
 
 template<int dim>
@@ -199,7 +224,13 @@ Forecast forecast(const input::Case& input, const ExplicitSolver<dim>& solver, c
       course = course_of_blanking(input, solver, structure, Steps(input, solver, control, spacing), expected);
     }
   }
-  if (dim == 3) spacing = expected.finest = input.cloud.spacing;
+  if constexpr (dim == 3) {
+    spacing = expected.finest = input.cloud.spacing;
+    if (input.adapt.tool_spacing) {
+      expected.nodes_last = expected.nodes_first += nodes_at_ridges(input, solver);
+      expected.finest = std::min(spacing, *input.adapt.tool_spacing);
+    }
+  }
   if (course.empty())
     course = {{input.time.end, expected.finest, 0.5 * (expected.nodes_first + expected.nodes_last)}};
   const Steps steps(input, solver, control, spacing);

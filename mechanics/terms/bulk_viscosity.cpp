@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 namespace cnem {
 
@@ -24,25 +25,43 @@ ViscousSums viscous(const ViscousPoints<dim>& points, const BulkViscosity& visco
 
 template<int dim>
 void set_length_shares(const DiscreteOperators<dim>& operators, const Field& density, const Field& mass,
-                       Field& share) {
-  share.resize(index_of(operators.points));
-  for_each_block(share.size(), [&](std::size_t begin, std::size_t end) {
+                       const Ties<dim>& ties, Field& share) {
+  const auto points = index_of(operators.points);
+  const auto gradient = [&](std::size_t e) {
+    Vec<dim> b;
+    for (std::size_t k = 0; k < dim; ++k) b[as<Eigen::Index>(k)] = operators.gradient[k][e];
+    return b;
+  };
+  Field inertia = mass, all(mass.size(), 0.0); // [node] Σ_q V_q |b_qJ|²
+  for (std::size_t p = 0; p < points; ++p)
+    for (auto e = index_of(operators.row_begin[p]); e < index_of(operators.row_begin[p + 1]); ++e)
+      all[index_of(operators.node[e])] += operators.volume[p] * gradient(e).squaredNorm();
+  ties.each_group([&](std::span<const NodeIndex> nodes) {
+    for (Field* field : {&inertia, &all}) {
+      double sum = 0.0;
+      for (const NodeIndex i : nodes) sum += (*field)[index_of(i)];
+      for (const NodeIndex i : nodes) (*field)[index_of(i)] = sum;
+    }
+  });
+  share.resize(points);
+  for_each_block(points, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
+      const double volume = operators.volume[p];
       Mat<dim> sum = Mat<dim>::Zero();
       for (auto e = index_of(operators.row_begin[p]); e < index_of(operators.row_begin[p + 1]); ++e) {
-        Vec<dim> gradient;
-        for (std::size_t k = 0; k < dim; ++k) gradient[as<Eigen::Index>(k)] = operators.gradient[k][e];
-        sum += gradient * gradient.transpose() / mass[index_of(operators.node[e])];
+        const Vec<dim> b = gradient(e);
+        const auto node = index_of(operators.node[e]);
+        const double beside = std::min(2.0, all[node] / (volume * b.squaredNorm()));
+        sum += beside / inertia[node] * b * b.transpose();
       }
       Eigen::SelfAdjointEigenSolver<Mat<dim>> axes;
       axes.computeDirect(sum, Eigen::EigenvaluesOnly);
-      const double highest = 2.0 * axes.eigenvalues()[dim - 1];
-      const double volume = operators.volume[p],
-                   extent = operators.of_revolution()
+      const double extent = operators.of_revolution()
                                 ? volume / (2.0 * std::numbers::pi * operators.radius[p])
                                 : volume,
                    length = dim == 2 ? std::sqrt(extent) : std::cbrt(extent);
-      share[p] = 1.0 / std::max(1.0, 0.5 * length * std::sqrt(density[p] * volume * highest));
+      share[p] =
+          1.0 / std::max(1.0, 0.5 * length * std::sqrt(density[p] * volume * axes.eigenvalues()[dim - 1]));
     }
   });
 }
@@ -81,7 +100,8 @@ public:
   double critical_damping() const override { return damping_; }
   void archive(Archive& archive) override { archive.number("solver/viscosity_ratio", "1", damping_); }
   void attach(const Body<dim>& body) override {
-    set_length_shares(body.operators(), body.state.point.density, body.state.node.inertia(), length_share_);
+    set_length_shares(body.operators(), body.state.point.density, body.state.node.inertia(),
+                      body.conditions.ties, length_share_);
   }
   void begin_step(const Body<dim>&) override { damping_ = 0.0; }
   void begin_stress(const Body<dim>&, const DuePoints& due) override {
@@ -116,8 +136,10 @@ template<int dim> std::unique_ptr<Term<dim>> bulk_viscosity(const Model<dim>&) {
 
 template std::unique_ptr<Term<2>> bulk_viscosity(const Model<2>&);
 template std::unique_ptr<Term<3>> bulk_viscosity(const Model<3>&);
-template void set_length_shares(const DiscreteOperators<2>&, const Field&, const Field&, Field&);
-template void set_length_shares(const DiscreteOperators<3>&, const Field&, const Field&, Field&);
+template void set_length_shares(const DiscreteOperators<2>&, const Field&, const Field&, const Ties<2>&,
+                                Field&);
+template void set_length_shares(const DiscreteOperators<3>&, const Field&, const Field&, const Ties<3>&,
+                                Field&);
 template ViscousSums add_bulk_viscosity<3>(const BulkViscosity&, const DiscreteOperators<3>&, const Field&,
                                            PointState<3>&, double, const EdgePoints&, ColumnStress<3>&,
                                            std::size_t, std::size_t);

@@ -4,6 +4,7 @@
 #include "core/operators/operators.hpp"
 #include "mechanics/kinematics.hpp"
 #include "mechanics/step_kernels.hpp"
+#include "mechanics/ties.hpp"
 
 namespace cnem {
 
@@ -16,12 +17,14 @@ struct BulkViscosity {
 };
 
 /// [point] s = min(1, 2c_d/(ω V^{1/dim})) of a reference: the length l of a cell is not larger than that with
-/// which ω = 2c_d/l is the frequency of a chain of such cells, ω² = 2 c_d² ρ V max_n Σ_J (b_J·n)²/M_J with
-/// unit vectors n (one alone has half of ω²); `mass` (kg/m^(3−dim)) is that of inertia. It is 1 but in flat
-/// cells, whose nodes would be damped by more than ξ, which the step is made for (docs/theory.md).
+/// which ω = 2c_d/l is the frequency of a chain of such cells, ω² = c_d² ρ V max_n Σ_J w_J (b_J·n)²/M_J with
+/// unit vectors n and w_J = min(2, Σ_q V_q |b_qJ|²/(V |b_J|²)): twice what a cell has alone, where its nodes
+/// have neighbours. `mass` (kg/m^(3−dim)) is that of inertia; tied nodes add theirs up. It is 1 but in flat
+/// cells and beside much smaller ones, whose nodes would be damped by more than ξ, which the step is made for
+/// (docs/theory.md).
 template<int dim>
 void set_length_shares(const DiscreteOperators<dim>& operators, const Field& density, const Field& mass,
-                       Field& length_share);
+                       const Ties<dim>& ties, Field& length_share);
 
 /// Writes P − q J F⁻ᵀ of the points [begin, end) to `total`, P from the stress in `point`, and returns what q
 /// dissipated in the step, J/m^(3−dim), and the largest share of critical damping ξ = c₂ + c₁ l |tr D|/c_d,

@@ -198,6 +198,7 @@ spacing = "0.16 mm"
 rereference = { every = 20, strain = 0.1 }
 [adapt]
 resample = true
+tool_spacing = "0.1 mm"
 [contact]
 deformable = true
 friction = { law = "coulomb", coefficient = 0.2 }

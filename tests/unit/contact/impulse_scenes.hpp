@@ -96,6 +96,9 @@ template<int dim> void expect_solved(Scene<dim>& scene, double depth) {
       EXPECT_LE(sweeper.slip().norm() * dt, 1e-7 * depth) << "what does not slip sticks";
     } else {
       EXPECT_LE(contact.sliding.dot(sweeper.slip()), 1e-9 * contact.strength()) << "against the slip";
+      if (sweeper.slip().norm() * dt > 1e-6 * depth && contact.strength() > 0.0) {
+        EXPECT_LE((contact.sliding.normalized() + sweeper.slip().normalized()).norm(), 1e-4);
+      }
     }
   }
 }

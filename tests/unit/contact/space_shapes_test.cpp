@@ -252,22 +252,28 @@ TEST(SweptShape, ridges_of_a_box_are_twelve_edges_and_eight_corners) {
   }
 }
 
-// Against places along them: extruded, of revolution, with the corners of a box.
+// Against places on them: extruded, of revolution, with the corners of a box.
 TEST(SweptShape, ridges_end_where_points_are_told_their_clearance) {
   const SweptShape box = SweptShape::extruded(cnem::testing::box({0, 0}, {2, 1}), 0.0, 3.0),
                    punch = SweptShape::extruded(rounded_box({-1, -0.7}, {1, 0.7}, 0.3), 0.0, 1.0, 0.2),
                    round = SweptShape::revolved(punch_section(1.0, 2.0, 0.2));
   std::mt19937 random(7);
   std::uniform_real_distribution<double> within(-3.0, 4.0);
+  constexpr int lengthwise = 300, across = 30;
   for (const SweptShape* shape : {&box, &punch, &round})
     for (const Ridge<3>& ridge : shape->ridges())
       for (int k = 0; k < 10; ++k) {
         const Vec3 x(within(random), within(random), within(random));
         double nearest = ridge.is_point() ? (x - ridge.point()).norm() : infinite;
-        constexpr int count = 2000;
-        for (int n = 0; n <= count && !ridge.is_point(); ++n)
-          nearest = std::min(nearest, (x - ridge.at(n * ridge.length / count).centre).norm());
-        EXPECT_NEAR(ridge.clearance(x), std::max(0.0, nearest - ridge.section.radius), 1e-5);
+        for (int n = 0; n <= lengthwise && !ridge.is_point(); ++n)
+          for (int m = 0; m <= across; ++m) {
+            const auto place = ridge.at(n * ridge.length / lengthwise);
+            const Vec2 normal = Eigen::Rotation2Dd(m * ridge.section.angle / across) * ridge.section.first;
+            const Vec3 on =
+                place.centre + ridge.section.radius * (normal.x() * place.u + normal.y() * ridge.v);
+            nearest = std::min(nearest, (x - on).norm());
+          }
+        EXPECT_NEAR(ridge.clearance(x), nearest, 2e-4);
       }
 }
 

@@ -21,7 +21,7 @@ struct ViscousBody {
     const DiscreteOperators<2>& op = approximation.mechanics;
     Field mass = op.node_volume();
     for (double& m : mass) m *= material.density;
-    set_length_shares(op, Field(op.volume.size(), material.density), mass, share);
+    set_length_shares(op, Field(op.volume.size(), material.density), mass, {}, share);
     for (const double volume : op.volume) length.push_back(std::sqrt(volume));
   }
 
@@ -53,11 +53,23 @@ TEST(BulkViscosity, takes_all_of_the_length_of_cells_as_long_as_wide) {
 
 TEST(BulkViscosity, damps_flat_cells_no_more) {
   ViscousBody body(rectangle(2e-3, 4e-6, 0.1e-3, Lattice::square)); // cells of 100 by 2 um
-  EXPECT_LT(*std::max_element(body.share.begin(), body.share.end()), 0.6);
+  // Thickness over root of the volume, were b that of one node on each side; it is that of three.
+  const double least = *std::min_element(body.share.begin(), body.share.end());
+  EXPECT_GT(least, 4e-6 / std::sqrt(100e-6 * 2e-6));
+  EXPECT_LT(least, 1.5 * 4e-6 / std::sqrt(100e-6 * 2e-6));
   EXPECT_GT(body.damping_of_highest_mode(false), 3.0);
   const double damping = body.damping_of_highest_mode(true);
   EXPECT_GT(damping, 0.3);
   EXPECT_LT(damping, 1.4);
+}
+
+TEST(BulkViscosity, takes_nearly_all_of_the_length_of_linear_triangles) {
+  const Cloud<2> cloud = rectangle(1.0, 1.0, 0.1);
+  const Approximation<2> plane = make(Method::triangles, Space::plane)->rebuild(cloud);
+  Field mass = plane.mechanics.node_volume(), share;
+  for (double& m : mass) m *= steel().density;
+  set_length_shares(plane.mechanics, Field(plane.mechanics.volume.size(), steel().density), mass, {}, share);
+  EXPECT_GT(*std::min_element(share.begin(), share.end()), 0.95);
 }
 
 } // namespace
