@@ -18,9 +18,14 @@ template<int dim> std::vector<char> boundary_nodes(const std::vector<Facet<dim>>
 }
 
 /// Of a record, in doubles.
-template<int dim> constexpr std::size_t stride = dim + 5;
+template<int dim> constexpr std::size_t stride = dim + 6;
 
 constexpr double most_drift = 0.05; ///< of Σ δθ: measured, docs/pressure_exchange.md
+
+/// Times the largest difference of pressure that a node has with its neighbours: a gradient that is taken
+/// over no more than their distance adds as much again. That of a cell much smaller than those beside it is
+/// taken further, and would make more of the jump in each step.
+constexpr double most_beyond = 2.0;
 
 /// What a node lets of an exchange pass that changes its volume by `flow` times something positive.
 double room_to_drift(double drift, double flow) {
@@ -82,7 +87,7 @@ PressureExchange<dim>::apply(const DiscreteOperators<dim>& operators, const Stab
                              const Field& reference, const DuePoints& due, PointState<dim>& point,
                              ColumnStress<dim>& stress) {
   constexpr std::size_t stride = cnem::stride<dim>, increment = dim + 1, strength = dim + 2, room = dim + 3,
-                        drift = dim + 4;
+                        drift = dim + 4, largest = dim + 5;
   const auto whole = [&](std::size_t i) { return !point.damaged.on() || point.softening[i] == 0.0; };
   const auto level_of = [&](std::size_t i) { return level_.empty() ? 0 : int{level_[i]}; };
   const std::int32_t *row = operators.row_begin.data(), *first = links.begin.data();
@@ -94,9 +99,10 @@ PressureExchange<dim>::apply(const DiscreteOperators<dim>& operators, const Stab
       double* own = record_.data() + stride * i;
       own[increment] = 0.0;
       if (level_of(i) > due.activity || !(point.plastic_rate[i] > 0.0) || !whole(i)) continue;
-      double g[dim] = {};
+      double g[dim] = {}, most = 0.0;
       for (std::int32_t e = row[i]; e < row[i + 1]; ++e) {
         const double jump = pressure[index_of(point_of(node[e]))] - pressure[i];
+        most = std::max(most, std::abs(jump));
         for (std::size_t k = 0; k < dim; ++k) g[k] += gradient[k][e] * jump;
       }
       for (std::size_t k = 0; k < dim; ++k) own[1 + k] = g[k];
@@ -105,6 +111,7 @@ PressureExchange<dim>::apply(const DiscreteOperators<dim>& operators, const Stab
       own[strength] = point.equivalent_stress[i];
       own[room] = operators.volume[i] / (first[i + 1] - first[i]);
       own[drift] = point.volume_drift[i];
+      own[largest] = most;
     }
   });
   std::vector<Change> energy(due.ranges.size());
@@ -126,7 +133,9 @@ PressureExchange<dim>::apply(const DiscreteOperators<dim>& operators, const Stab
           linear += (own[1 + k] + other[1 + k]) * X;
           distance2 += X * X;
         }
-        const double jump = other[0] - own[0] - 0.5 * linear;
+        const double difference = other[0] - own[0], beyond = difference - 0.5 * linear;
+        const double jump =
+            std::abs(beyond) <= most_beyond * std::max(own[largest], other[largest]) ? beyond : difference;
         const double flowed =
             std::min(own[increment], other[increment]) * (1 << std::max(level, level_of(j)));
         const double plastic =
