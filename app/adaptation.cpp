@@ -252,12 +252,7 @@ void Adaptation::follow_nodes(const Resampling<2>& change, double time) {
 
 void Adaptation::fit_to_tools(ExplicitSolver<2>& solver, const Follow& follow) {
   if (tips_.empty()) return;
-  constexpr int most = 20;
-  for (int pass = 0; pass < most; ++pass) {
-    const int inserted = total_.inserted + total_.inserted_boundary;
-    renew(solver, follow);
-    if (total_.inserted + total_.inserted_boundary == inserted) break;
-  }
+  renew_until_fitted(total_, [&] { renew(solver, follow); });
 }
 
 AdaptationFields Adaptation::fields(double time) const {

@@ -1,6 +1,7 @@
 #pragma once
 // What passes in the plane and in space have in common.
 #include "adapt/matter.hpp"
+#include "adapt/pass_report.hpp"
 #include "core/index.hpp"
 #include "input/case.hpp"
 #include "mechanics/broken.hpp"
@@ -53,6 +54,16 @@ template<int dim> double share_changed(const Resampling<dim>& change) {
   const auto came = std::count_if(change.old_of.begin(), change.old_of.end(), none),
              went = std::count_if(change.new_of.begin(), change.new_of.end(), none);
   return static_cast<double>(came + went) / static_cast<double>(change.old_of.size());
+}
+
+/// Calls `renew`, which adds to `total`, until it inserts no node, 20 times at most.
+template<class Renew> void renew_until_fitted(const adapt::PassReport& total, Renew&& renew) {
+  constexpr int most = 20;
+  for (int pass = 0; pass < most; ++pass) {
+    const int inserted = total.inserted + total.inserted_boundary;
+    renew();
+    if (total.inserted + total.inserted_boundary == inserted) break;
+  }
 }
 
 } // namespace cnem::app

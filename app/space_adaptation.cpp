@@ -171,15 +171,10 @@ double SpaceAdaptation::renew(ExplicitSolver<3>& solver, const Follow& follow) {
 }
 
 void SpaceAdaptation::fit_to_tools(ExplicitSolver<3>& solver, const Follow& follow) {
-  if (!input_->adapt.tool_spacing || !have_ridges(solver.conditions().contact)) return;
-  constexpr int most = 20;
-  for (int pass = 0; pass < most; ++pass) {
-    const int inserted = total_.inserted + total_.inserted_boundary;
-    try {
-      renew(solver, follow);
-    } catch (const GeometryError&) { break; } // passes of the run go on with it
-    if (total_.inserted + total_.inserted_boundary == inserted) break;
-  }
+  if (!input_->adapt.tool_spacing) return;
+  try {
+    renew_until_fitted(total_, [&] { renew(solver, follow); });
+  } catch (const GeometryError&) {} // passes of the run go on with it
 }
 
 std::vector<std::pair<std::string, double>> SpaceAdaptation::metrics() const {

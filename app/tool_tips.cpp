@@ -36,9 +36,4 @@ double distance_from_ridges(const contact::RigidContact<3>& contact, const Vec3&
   return most;
 }
 
-bool have_ridges(const contact::RigidContact<3>& contact) {
-  return std::any_of(contact.tools().begin(), contact.tools().end(),
-                     [](const contact::Tool<3>& tool) { return !tool.shape->ridges().empty(); });
-}
-
 } // namespace cnem::app

@@ -16,7 +16,4 @@ double squared_distance(const std::vector<Vec2>& tips, const Vec2& shift, const 
 /// m, from x to the nearest ridge of the tools in space where they stand, but at most `most`.
 double distance_from_ridges(const contact::RigidContact<3>& contact, const Vec3& x, double most);
 
-/// Whether a tool has one: half-spaces have none.
-bool have_ridges(const contact::RigidContact<3>& contact);
-
 } // namespace cnem::app

@@ -1,5 +1,7 @@
 // What passes in space leave as a case wants it.
+#include "app/forecast/forecast.hpp"
 #include "app/space_adaptation.hpp"
+#include "app/time_control.hpp"
 #include "input/case_reader.hpp"
 #include "tests/solver_of.hpp"
 #include "tests/steel.hpp"
@@ -137,7 +139,12 @@ friction = { law = "none" }
     return nodes;
   };
   const int coarse = near_edge(0.4e-3), nodes = static_cast<int>(solver.state().node.size());
+  StepControl control(input.time);
+  control.refresh(solver);
+  const Forecast expected = forecast(input, solver, control);
   adaptation.fit_to_tools(solver, nothing);
+  EXPECT_NEAR(expected.nodes_first / static_cast<double>(solver.state().node.size()), 1.0, 0.15);
+  EXPECT_EQ(expected.finest, 0.08e-3);
   const int fine = near_edge(0.4e-3), elsewhere = near_edge(1.6e-3);
   EXPECT_GT(fine, 4 * coarse); // (0.25/0.08)² = 9.8 where it is finest, a third of that at 0.1 mm
   EXPECT_LE(elsewhere, 2 * coarse);

@@ -72,5 +72,42 @@ TEST(BulkViscosity, takes_nearly_all_of_the_length_of_linear_triangles) {
   EXPECT_GT(*std::min_element(share.begin(), share.end()), 0.95);
 }
 
+// Far from the axis a ring is as a strip: masses and volumes of revolution have 2 pi r alike.
+TEST(BulkViscosity, takes_of_a_ring_what_it_takes_of_its_section) {
+  Cloud<2> cloud = rectangle(2e-3, 4e-6, 0.1e-3, Lattice::square);
+  const ViscousBody strip(cloud);
+  for (Vec2& x : cloud.position) x.x() += 1.0;
+  const Approximation<2> ring = make(Method::cnem, Space::revolution)->rebuild(cloud);
+  Field mass = ring.mechanics.node_volume(), share;
+  for (double& m : mass) m *= steel().density;
+  set_length_shares(ring.mechanics, Field(ring.mechanics.volume.size(), steel().density), mass, {}, share);
+  for (std::size_t p = 0; p < share.size(); ++p) EXPECT_NEAR(share[p], strip.share[p], 0.02 * share[p]) << p;
+}
+
+// Inertia four times as large swings half as fast, and its cells are taken for twice as long.
+TEST(BulkViscosity, knows_mass_scaling_and_ties) {
+  const Cloud<2> cloud = rectangle(2e-3, 4e-6, 0.1e-3, Lattice::square);
+  const ViscousBody strip(cloud);
+  const DiscreteOperators<2>& op = strip.approximation.mechanics;
+  const Field density(op.volume.size(), strip.material.density);
+  Field mass = op.node_volume(), heavy, tied;
+  for (double& m : mass) m *= 4.0 * strip.material.density;
+  set_length_shares(op, density, mass, {}, heavy);
+  for (std::size_t p = 0; p < heavy.size(); ++p)
+    EXPECT_NEAR(heavy[p], std::min(1.0, 2.0 * strip.share[p]), 1e-12);
+
+  std::vector<std::array<NodeIndex, 2>> pairs; // both ends, as over a period
+  for (const NodeIndex a : cloud.position.indices())
+    for (const NodeIndex b : cloud.position.indices())
+      if (cloud.position[a].x() < 1e-9 && cloud.position[b].x() > 2e-3 - 1e-9 &&
+          std::abs(cloud.position[a].y() - cloud.position[b].y()) < 1e-9)
+        pairs.push_back({a, b});
+  ASSERT_EQ(pairs.size(), 2U);
+  for (double& m : mass) m /= 4.0;
+  set_length_shares(op, density, mass, Ties<2>(pairs, cloud.position), tied);
+  for (const auto& [a, b] : pairs) // has the inertia of two, of which it is one half
+    EXPECT_GT(tied[index_of(a)], 1.01 * strip.share[index_of(a)]);
+}
+
 } // namespace
 } // namespace cnem::testing
