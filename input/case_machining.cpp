@@ -6,7 +6,7 @@
 #include "input/constants.hpp"
 #include "input/schema/document.hpp"
 #include "input/schema/nearest.hpp"
-#include "machining/engaged_edges.hpp"
+#include "machining/layer_grading.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -232,22 +232,13 @@ void read_machining(Setting& root, Case& result, Diagnostics& diagnostics) {
         Mistake::missing_key, root.where, "modes",
         "missing, expected a mode of tool or part, [modes.NAME], or a [part]: nothing else can chatter");
   const double turn = read.cut.feed * static_cast<double>(read.cut.cutter.teeth());
-  constexpr double turns = 12.0, share = 0.1, degree = std::numbers::pi / 180.0, corner = 0.05;
-  // Of half a degree to one: where edges of a layer enter or leave more than a step after those below, forces
-  // come and go by a layer.
-  const double lag =
-      std::clamp(machining::full_turn / static_cast<double>(root.get<std::int64_t>("dexels.steps")),
-                 0.5 * degree, degree);
+  constexpr double turns = 12.0, share = 0.1;
   if (!milling.find("passes")) root.set_default("milling.length", turns * turn);
   root.set_default("dexels.pitch", share * read.cut.feed);
-  const double rounded = // m, over which the radius of edges changes
-      read.cut.cutter.edge ? read.axial_depth : std::min(read.cut.cutter.corner, read.axial_depth);
-  const double layers =
-      std::ceil((rounded > 0.0 ? std::max(machining::moves_on(read.cut, read.axial_depth) / lag,
-                                          read.axial_depth / (corner * rounded))
-                               : std::abs(read.cut.cutter.lag(read.axial_depth)) / lag) -
-                1e-9);
-  root.set_default("dexels.layers", static_cast<std::int64_t>(std::clamp(layers, 1.0, 2000.0)));
+  const int layers = machining::LayerGrading(read.cut, read.axial_depth,
+                                             static_cast<int>(root.get<std::int64_t>("dexels.steps")))
+                         .layers();
+  root.set_default("dexels.layers", std::int64_t{std::min(layers, 2000)});
   read.length = root.maybe<double>("milling.length").value_or(0.0);
   read.dwell = root.get<double>("milling.dwell");
   read.start = root.choice<machining::ProcessSettings::Start>("milling.start");

@@ -169,23 +169,6 @@ SteadyChips steady_chips(const MillingCut& cut, double depth) {
   return chips;
 }
 
-double moves_on(const MillingCut& cut, double depth) {
-  constexpr int pieces = 1000;
-  double entry = 0.0, exit = 0.0;
-  Vec2 before;
-  for (int k = 0; k <= pieces; ++k) {
-    const double z = depth * k / pieces, radius = cut.cutter.radius_at(z), lag = cut.cutter.lag(z);
-    const Vec2 now(lag + cut.engagement.entry(cut.cutter, radius),
-                   lag + cut.engagement.exit(cut.cutter, radius));
-    if (k > 0) {
-      entry += std::abs(now.x() - before.x());
-      exit += std::abs(now.y() - before.y());
-    }
-    before = now;
-  }
-  return std::max(entry, exit);
-}
-
 EngagedEdges::EngagedEdges(const MillingCut& cut, double depth, double spindle)
     : cut_(cut), spindle_(spindle), slices_(edge_slices(cut, depth)) {
   for (const EdgeSlice& slice : slices_)

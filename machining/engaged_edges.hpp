@@ -35,10 +35,6 @@ struct SteadyChips {
 };
 SteadyChips steady_chips(const MillingCut& cut, double depth);
 
-/// rad, by how much the angles of the tip at which edges enter, or leave, move on up to a depth: whichever do
-/// so more.
-double moves_on(const MillingCut& cut, double depth);
-
 class EngagedEdges {
 public:
   /// depth: m; spindle: rad/s.

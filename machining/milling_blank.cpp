@@ -1,5 +1,6 @@
 // What a cutter finds at first, and what it leaves.
 #include "core/error.hpp"
+#include "machining/layer_grading.hpp"
 #include "machining/milling_process.hpp"
 
 #include <algorithm>
@@ -38,13 +39,24 @@ Workpiece workpiece_of(const MillingCut& cut, const ProcessSettings& settings) {
            slot || up ? r + beside : depth - r, settings.axial_depth}};
 }
 
-std::vector<Slice> slices_of(const ProcessSettings& settings) {
+std::vector<Slice> slices_of(const MillingCut& cut, const ProcessSettings& settings) {
   assert(!settings.blank || settings.blank->height > 0.0);
-  std::vector<double> tips;
-  for (const ToolPath& pass : settings.passes) tips.push_back(pass.tip());
-  const double most = settings.axial_depth / settings.layers;
-  if (settings.blank && settings.blank->left) return divided(settings.blank->left->slices, most, tips);
-  return slices(settings.blank ? settings.blank->height : settings.axial_depth, most, tips);
+  std::vector<double> between;
+  for (const ToolPath& pass : settings.passes) between.push_back(pass.tip());
+  if (between.empty()) between.push_back(0.0);
+  double most = settings.axial_depth / settings.layers;
+  if (cut.cutter.rounded()) {
+    const std::vector<double> ends =
+        LayerGrading(cut, settings.axial_depth, settings.steps).ends(settings.layers);
+    most = 0.0;
+    for (std::size_t k = 1; k < ends.size(); ++k) most = std::max(most, ends[k] - ends[k - 1]);
+    const std::vector<double> tips = between;
+    for (const double tip : tips)
+      for (const double end : ends)
+        if (end > 0.0) between.push_back(tip + end);
+  }
+  if (settings.blank && settings.blank->left) return divided(settings.blank->left->slices, most, between);
+  return slices(settings.blank ? settings.blank->height : settings.axial_depth, most, between);
 }
 
 ToolMotion motion_of(const MillingCut& cut, const ProcessSettings& settings) {

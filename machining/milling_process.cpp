@@ -17,7 +17,7 @@ MillingProcess::MillingProcess(MillingCut cut, std::vector<Mode> modes, const Pr
     : cut_(std::move(cut)), modes_(std::move(modes)), settings_(settings), motion_(motion_of(cut_, settings)),
       dt_(motion_.dt(0)),
       feed_speed_(cut_.feed * static_cast<double>(cut_.cutter.teeth()) * settings.spindle / full_turn),
-      slice_(slices_of(settings_)), part_(std::move(part)) {
+      slice_(slices_of(cut_, settings_)), part_(std::move(part)) {
   assert(settings.passes.empty() == !settings.blank);
   for (std::size_t pass = 0; pass < motion_.passes().size(); ++pass)
     edges_.emplace_back(cut_, slice_, motion_.tip(pass), full_turn / settings.steps);

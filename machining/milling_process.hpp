@@ -49,7 +49,7 @@ struct Workpiece {
 };
 Workpiece workpiece_of(const MillingCut& cut, const ProcessSettings& settings);
 /// The layers that it is divided into: tips of passes lie between two of them.
-std::vector<Slice> slices_of(const ProcessSettings& settings);
+std::vector<Slice> slices_of(const MillingCut& cut, const ProcessSettings& settings);
 /// The way of the cutter's axis.
 ToolMotion motion_of(const MillingCut& cut, const ProcessSettings& settings);
 

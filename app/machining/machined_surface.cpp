@@ -95,19 +95,22 @@ std::string MachinedSurface::tell(results::RunStatus& status) const {
   if (asked_ < 2) return "the path is too short for a surface";
   if (place_.empty()) return "the last pass takes nothing of its side: there is no surface";
   const auto zone = [&](const std::string& name, double from, double to) -> std::optional<Texture> {
-    std::vector<Texture> layers;
-    for (std::size_t i = 0; i < layer_.size(); ++i)
-      if (const double z = process_.height(layer_[i]); texture_[i] && z >= from && z < to)
-        layers.push_back(*texture_[i]);
-    if (layers.empty()) return std::nullopt;
     Texture all;
-    for (const Texture& layer : layers) {
-      all.Ra += layer.Ra / static_cast<double>(layers.size());
-      all.Rz += layer.Rz / static_cast<double>(layers.size());
+    double height = 0.0; // m, of what counts
+    for (std::size_t i = 0; i < layer_.size(); ++i) {
+      const machining::Slice& slice = process_.slices()[layer_[i]];
+      if (!texture_[i] || slice.middle() < from || slice.middle() >= to) continue;
+      const Texture& layer = *texture_[i];
+      height += slice.thickness;
+      all.Ra += slice.thickness * layer.Ra;
+      all.Rz += slice.thickness * layer.Rz;
       all.peak_to_valley = std::max(all.peak_to_valley, layer.peak_to_valley);
       if (std::abs(layer.location_error) > std::abs(all.location_error))
         all.location_error = layer.location_error;
     }
+    if (height == 0.0) return std::nullopt;
+    all.Ra /= height;
+    all.Rz /= height;
     for (const auto& [what, value] : {std::pair{"Ra", all.Ra},
                                       {"Rz", all.Rz},
                                       {"peak_to_valley", all.peak_to_valley},

@@ -3,14 +3,13 @@
 
 #include "core/error.hpp"
 #include "machining/cutter.hpp"
+#include "tests/degree.hpp"
 
 #include <gtest/gtest.h>
 #include <numbers>
 
 namespace cnem::machining {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180.0;
 
 /// Ti6Al4V at a rake of 12°: r = (1.755 − 0.028α) h^(0.331 − 0.0082α), β = 19.1° + 0.29α.
 ObliqueLaw titanium(double inclination) {

@@ -94,16 +94,5 @@ TEST(SteadyChips, AreThoseOfTheEdgesThatCut) {
   EXPECT_EQ(none.radius, 0.0);
 }
 
-TEST(MovesOn, OfAHelixItsLagOfABallItsTurnToo) {
-  MillingCut cut = milling_cut(3, 1e9, 0.0, up, 0.5);
-  cut.cutter.helix = 0.5;
-  EXPECT_NEAR(moves_on(cut, 4e-3), 4.0 / 6.0 * std::tan(0.5), 1e-12);
-  cut.cutter.helix = 0.0;
-  cut.cutter.corner = cut.cutter.radius();
-  EXPECT_NEAR(moves_on(cut, 4e-3), 0.0, 1e-12) << "half a slot ends where edges of any radius leave";
-  cut.engagement.radial_depth = 4e-3; // 2 mm beside the axis, which 5.66 mm reach
-  EXPECT_NEAR(moves_on(cut, 4e-3), std::acos(2.0 / std::sqrt(32.0)), 1e-9);
-}
-
 } // namespace
 } // namespace cnem::machining
