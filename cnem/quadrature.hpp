@@ -7,8 +7,11 @@
 #include "voronoi/plane/natural_neighbours.hpp"
 
 #include <algorithm>
+#include <atomic>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
@@ -25,7 +28,11 @@ public:
     std::vector<NodeIndex> node;
     std::vector<double> value;
   };
-  explicit FaceMeans(std::vector<Block> blocks) : blocks_(std::move(blocks)) {}
+  explicit FaceMeans(std::vector<Block> blocks)
+      : blocks_(std::move(blocks)), unread_(std::make_unique<std::atomic<int>[]>(blocks_.size())) {
+    for (std::size_t b = 0; b < blocks_.size(); ++b)
+      unread_[b] = 2 * (static_cast<int>(blocks_[b].begin.size()) - 1);
+  }
 
   /// Stencil of an inner face; empty for faces without area.
   std::span<const NodeIndex> nodes(FaceIndex face) const {
@@ -38,6 +45,19 @@ public:
     return {block.value.data() + begin[0], block.value.data() + begin[1]};
   }
 
+  /// These have been read for a cell. Where both cells of all its faces have had it a block is let go of: it
+  /// may be called for several cells at a time.
+  void release(std::span<const FaceIndex> faces) {
+    for (std::size_t k = 0; k < faces.size();) {
+      const std::size_t block = index_of(faces[k]) / block_size;
+      int read = 0;
+      for (; k < faces.size() && index_of(faces[k]) / block_size == block; ++k) ++read;
+      const int left = unread_[block].fetch_sub(read, std::memory_order_acq_rel) - read;
+      assert(left >= 0);
+      if (left == 0) blocks_[block] = {};
+    }
+  }
+
 private:
   std::pair<const Block&, const std::int32_t*> row(FaceIndex face) const {
     const std::size_t f = index_of(face);
@@ -45,6 +65,7 @@ private:
     return {block, &block.begin[f % block_size]};
   }
   std::vector<Block> blocks_;
+  std::unique_ptr<std::atomic<int>[]> unread_; ///< [block] times that its faces are yet to be read
 };
 
 /// Adds functions at a point, times `weight`, to the row of a block that begins at `start`: its entries are

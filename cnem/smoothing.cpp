@@ -56,6 +56,7 @@ DiscreteOperators<dim> smoothed_gradients(const Cloud<dim>& cloud, const FacesOf
       const auto value = means.values(f);
       for (std::size_t e = 0; e < node.size(); ++e) row.add(node[e], value[e] * normal);
     }
+    means.release(cells.of_cell.of(i)); // rows take their place
     for (const PartIndex p : boundary.of(i)) {
       const BoundaryPart<dim>& part = cells.boundary[p];
       const Facet<dim>& facet = cloud.facets[part.facet];
@@ -72,7 +73,6 @@ DiscreteOperators<dim> smoothed_gradients(const Cloud<dim>& cloud, const FacesOf
     }
     return cells.volume[i] * op.radius[i];
   });
-  means = FaceMeans({}); // they hold more than the rows
   join_rows(op, std::move(rows));
   assert(rows_are_complete(op) && reproduces_linear_fields(op, cloud.position));
   return op;
