@@ -102,9 +102,8 @@ void functions_on_facets(benchmark::State& state) {
 
 void smoothing(benchmark::State& state) {
   const Geometry g(state.range(0));
-  const auto means = face_means(g, options(state));
   per_node(
-      state, g.cloud, [&] { return means; },
+      state, g.cloud, [&] { return face_means(g, options(state)); },
       [&](scni::FaceMeans given) {
         return scni::smoothed_gradients<2>(g.cloud, g.cells, faces_of_cells<2>(g.cells), std::move(given));
       });

@@ -71,15 +71,14 @@ void functions_on_facets(benchmark::State& state) {
 void smoothing_and_links(benchmark::State& state) {
   const auto& cells = Geometry::get().cells;
   const auto& cloud = Geometry::get().cloud;
-  const scni::FacetMeans facets = means(state, Geometry::get().spheres);
+  const std::vector<scni::Interface<3>> facet = means(state, Geometry::get().spheres).facet;
   per_node(
-      state, [&] { return facets.means; },
+      state, [&] { return means(state, Geometry::get().spheres).means; },
       [&](scni::FaceMeans means_on_facets) {
         const auto of_cell = group_by_cell<FaceIndex>(
-            cloud.position.size(),
-            facets.facet.size(), [&](std::size_t f) -> const auto& { return facets.facet[f].cell; });
-        const scni::FacesOfCells<3, scni::Interface<3>> faces{cells.volume, facets.facet, of_cell,
-                                                              cells.boundary, cells.neighbours};
+            cloud.position.size(), facet.size(), [&](std::size_t f) -> const auto& { return facet[f].cell; });
+        const scni::FacesOfCells<3, scni::Interface<3>> faces{cells.volume, facet, of_cell, cells.boundary,
+                                                              cells.neighbours};
         return std::pair(scni::smoothed_gradients(cloud, faces, std::move(means_on_facets)),
                          scni::stabilisation_links(cloud, faces));
       });
