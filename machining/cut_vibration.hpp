@@ -35,6 +35,7 @@ public:
 
   struct Growth {
     double factor = 0.0; ///< of disturbances in a period
+    double late = 0.0;   ///< the same of the last third of the periods: large vibrations come and go
     double size = 0.0;   ///< m, by how much a sample differs from the one a period before, root of the mean
                          ///< square at the end
     double vibration = 0.0; ///< m, of samples about their mean, root of the mean square

@@ -233,19 +233,21 @@ double MillingRun::still_chips() const {
   return thickest;
 }
 
-MillingRun::Disturbances MillingRun::judge_vibration() {
+MillingRun::Disturbances
+MillingRun::judge_vibration(const std::optional<machining::CutVibration::Growth>& growth) {
   const input::MachiningCase& milling = *input_.machining;
   const double spindle = milling.speed, teeth = static_cast<double>(milling.cut.cutter.teeth());
   if (!process_.motion().steady()) return Disturbances::unknown; // periods differ though nothing chatters
   status_.add_metric("milling.tooth_frequency[Hz]", teeth * spindle / machining::full_turn);
   if (modes_.empty()) return Disturbances::unknown;
-  const auto growth = vibration_.growth();
   if (!growth) return Disturbances::unknown;
   status_.add_metric("milling.growth", growth->factor);
-  constexpr double shrinks = 0.999, felt = 0.1;
+  constexpr double shrinks = 0.999, felt = 0.1, gone = 1e-3;
   const bool small = growth->size <= felt * growth->vibration;
   if (growth->factor > shrinks) return small ? Disturbances::last : Disturbances::grow;
-  return small ? Disturbances::die_out : Disturbances::last;
+  return small && (growth->late <= shrinks || growth->size <= gone * growth->vibration)
+             ? Disturbances::die_out
+             : Disturbances::last;
 }
 
 void MillingRun::judge() {
@@ -259,12 +261,21 @@ void MillingRun::judge() {
   status_.add_metric("milling.removal_rate[m^3/s]", steady.removed / steady.time);
   status_.add_metric("milling.thickest[m]", steady.thickest);
   // Campomanes and Altintas (2003): chips a quarter thicker than without vibration are chatter; but for those
-  // that the teeth alone force, which uneven ones do near a resonance.
-  constexpr double chatter = 1.25;
-  const Disturbances disturbances = judge_vibration();
-  const bool thick = !modes_.empty() && still_ > 0.0 && steady.thickest > chatter * still_;
+  // that the teeth alone force, which uneven ones do near a resonance. Teeth that are alike cut chips as
+  // thick as without vibration in one that comes back with each of them, others up to twice as thick: beyond
+  // that some miss the cut, and what dies out are disturbances of a vibration that goes on without them.
+  constexpr double chatter = 1.25, missed = 2.0, settled = 0.1;
+  const auto growth = vibration_.growth();
+  const Disturbances disturbances = judge_vibration(growth);
+  const bool alike = milling.cut.cutter.pattern() == 1 && milling.cut.cutter.run_out == 0.0;
+  const auto thicker_than = [&](double times) {
+    return !modes_.empty() && still_ > 0.0 && steady.thickest > times * still_;
+  };
+  const bool thick = thicker_than(chatter);
+  const bool goes_on = disturbances == Disturbances::die_out && thicker_than(alike ? chatter : missed) &&
+                       growth->size < settled * (steady.thickest - still_);
   const bool chatters =
-      disturbances == Disturbances::grow || (thick && disturbances != Disturbances::die_out);
+      disturbances == Disturbances::grow || (thick && (disturbances != Disturbances::die_out || goes_on));
   std::string tone;
   if (chatters && process_.motion().steady())
     if (const auto peak = vibration_.chatter(milling.speed)) {

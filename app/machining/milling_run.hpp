@@ -49,7 +49,7 @@ private:
   /// What becomes of disturbances: they die out where they shrink and are lost beside what the teeth force.
   enum class Disturbances { unknown, grow, last, die_out };
   /// Their growth, and the frequency of the teeth.
-  Disturbances judge_vibration();
+  Disturbances judge_vibration(const std::optional<machining::CutVibration::Growth>& growth);
   /// Whole turns that stand for the cut: the last ones, a share of all, up to where the feed ends; of passes,
   /// which enter and leave, those in the middle half of the last one. most: turns.
   Window steady_turns(double share, double most) const;

@@ -177,6 +177,31 @@ at = "{0} 40 2 mm"
   EXPECT_LT(met.at("1 at 0.1").second, met.at("1 at 0").second);
 }
 
+TEST(PartModes, ThatDoNotMoveAFaceHaveNoStiffnessThere) { // torsion of a plate, at its free end
+  const TemporaryFolder folder("torsion");
+  const input::Case plate = input::read_case_text(R"toml(
+[analysis]
+type = "modes"
+[part]
+size = "90 55 5 mm"
+cells = "11 7 2"
+young = "71 GPa"
+poisson = 0.33
+density = "2800 kg/m3"
+clamped = ["y0"]
+count = 2
+[part.points.end]
+face = "y1"
+)toml",
+                                                  "case.toml", {});
+  ASSERT_EQ(app::run(plate, {.output = folder.path(), .force = true, .threads = 1, .version = "test"}),
+            Exit::done);
+  const results::RunStatus modes = results::read_status(folder.path());
+  EXPECT_TRUE(modes.metric("modes.part.f2"));
+  EXPECT_TRUE(modes.metric("modes.part.end.k1"));
+  EXPECT_FALSE(modes.metric("modes.part.end.k2"));
+}
+
 TEST(PartsAlongAPath, ModesKeepTheirNumbersWhereOthersHaveNodes) { // midway along the wall
   const auto met = [](const std::string& rest, const std::vector<std::string>& set) {
     const TemporaryFolder folder("numbers");

@@ -11,15 +11,19 @@
 #include <algorithm>
 #include <fstream>
 #include <sstream>
+#include <tuple>
 
 namespace cnem::testing {
 namespace {
 
 /// Runs cases/milling/time_chart at 5000 rpm, where the limit of Floquet is 0.2603 mm.
-results::RunStatus milled_at(const std::string& depth, const std::filesystem::path& folder) {
+results::RunStatus milled_at(const std::string& depth, const std::filesystem::path& folder,
+                             const std::vector<std::string>& set = {"milling.length=1.6 mm",
+                                                                    "dexels.layers=3"}) {
+  std::vector<std::string> all = set;
+  all.push_back("milling.axial_depth=" + depth);
   const input::Case input =
-      input::read_case(std::string(CNEM_SOURCE_DIR) + "/cases/milling/time_chart/case.toml",
-                       {"milling.axial_depth=" + depth, "milling.length=1.6 mm", "dexels.layers=3"});
+      input::read_case(std::string(CNEM_SOURCE_DIR) + "/cases/milling/time_chart/case.toml", all);
   EXPECT_EQ(app::run(input, {.output = folder, .force = true, .threads = 1, .version = "test"}), Exit::done);
   return results::read_status(folder);
 }
@@ -85,6 +89,19 @@ TEST(MillingFiles, ThickChipsThatTeethForceAreNoChatter) {
   EXPECT_NE(cut.reason.find("what the teeth force makes chips 1.3"), std::string::npos) << cut.reason;
   const results::RunStatus deep = milled(folder.path(), {"milling.axial_depth=2.2 mm"});
   EXPECT_EQ(deep.metric("milling.chatter"), 1.0) << deep.reason;
+}
+
+// Multipliers of 1.40, 1.42 and 0.95: deep in the unstable, teeth miss the cut, and the vibration comes back
+// with each tooth, or collapses and grows anew, so that differences from tooth to tooth shrink over the whole
+// of it.
+TEST(MillingFiles, ChatterThatTeethLeaveIsChatter) {
+  const TemporaryFolder folder("missed");
+  for (const auto& [speed, depth, chatters] :
+       {std::tuple{"5769 rpm", "1.76 mm", 1.0}, {"5641 rpm", "1.92 mm", 1.0}, {"9000 rpm", "1.5 mm", 0.0}}) {
+    const results::RunStatus cut = milled_at(depth, folder.path(), {std::string("milling.speed=") + speed});
+    EXPECT_EQ(cut.metric("milling.chatter"), chatters) << speed << ": " << cut.reason;
+    EXPECT_LT(cut.metric("milling.growth").value_or(2.0), 1.0) << speed;
+  }
 }
 
 TEST(MillingFiles, APathThatMissesIsTold) {
