@@ -62,7 +62,11 @@ LayerGrading::LayerGrading(const MillingCut& cut, double depth, int steps) {
             .rake = cutter.edge ? z / (share * depth) : 0.0};
   };
   constexpr int pieces = 64, halvings = 40;
-  constexpr double enough = 0.1; // layers
+  constexpr double finest = 0.1, most = 2e4; // layers in a piece; pieces, of more layers than anybody can cut
+  double whole = 0.0;
+  for (int k = 0; k < pieces; ++k)
+    whole += courses(depth * (k + 1) / pieces).apart(courses(depth * k / pieces));
+  const double enough = std::max(finest, whole / most);
   height_ = {0.0};
   changes_ = {0.0};
   const auto add = [&](const auto& self, double low, const Courses& at_low, double high,
@@ -85,8 +89,8 @@ LayerGrading::LayerGrading(const MillingCut& cut, double depth, int steps) {
 }
 
 int LayerGrading::layers() const {
-  constexpr double rounding = 1e-9; // of a layer
-  return std::max(1, static_cast<int>(std::ceil(changes_.back() - rounding)));
+  constexpr double rounding = 1e-9, most = 1e9; // of a layer; layers
+  return static_cast<int>(std::clamp(std::ceil(changes_.back() - rounding), 1.0, most));
 }
 
 std::vector<double> LayerGrading::ends(int count) const {

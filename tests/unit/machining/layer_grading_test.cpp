@@ -25,6 +25,7 @@ TEST(LayerGrading, OfAHelixLayersAreEquallyThick) {
   const std::vector<double> ends = grading.ends(5);
   ASSERT_EQ(ends.size(), 6U);
   for (std::size_t k = 0; k < 6; ++k) EXPECT_NEAR(ends[k], 0.8e-3 * static_cast<double>(k), 1e-15);
+  EXPECT_GT(LayerGrading(cut, 1e6, 720).layers(), 1'000'000) << "as soon";
   cut.cutter.helix = 0.0;
   EXPECT_EQ(LayerGrading(cut, 4e-3, 720).layers(), 1);
   EXPECT_EQ(LayerGrading(cut, 4e-3, 720).ends(5), (std::vector{0.0, 4e-3}));
