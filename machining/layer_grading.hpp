@@ -1,6 +1,6 @@
 #pragma once
-// Where layers of the workpiece end that a cutter cuts: near each other where the angles change at which edges
-// enter and leave, and where their normal turns.
+// Where layers of the workpiece end that a cutter cuts: near each other where the angles change at which
+// edges enter and leave, and where their normal turns.
 #include "machining/milling_cut.hpp"
 
 #include <vector>

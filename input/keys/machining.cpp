@@ -230,10 +230,11 @@ void add_milling(Keys& k) {
       .in(positive)
       .example("\"10 um\"")
       .computed("a tenth of `milling.feed`");
-  k.add("dexels.layers", integer,
-        "Along the axis of the cutter, in `milling.axial_depth`: equally thick, but those of rounded ends and "
-        "of rake faces are thin where angles of their edges change much. Higher workpieces have as many more; "
-        "each `tip` of a pass lies between two.")
+  k.add(
+       "dexels.layers", integer,
+       "Along the axis of the cutter, in `milling.axial_depth`: equally thick, but those of rounded ends and "
+       "of rake faces are thin where angles of their edges change much. Higher workpieces have as many more; "
+       "each `tip` of a pass lies between two.")
       .in({.low = 1, .high = 2000})
       .example("20")
       .computed("edges of a layer enter and leave at most a step, 0.5 to 1 deg, after those below, and their "
