@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/geometry/box.hpp"
+#include "machining/milling_process.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -175,7 +176,14 @@ void read_path(Setting& root, MachiningCase& read, const std::string& case_path,
 std::string too_many_cells(const MachiningCase& read, const Vec2& size, double height) {
   constexpr double most = 2e8, degrees = 60.0;
   const double cell = std::max(read.dexels.pitch, read.cut.cutter.radius() / degrees);
-  const double layers = std::max(1.0, height / read.axial_depth) * read.dexels.layers;
+  double layers = std::max(1.0, height / read.axial_depth) * read.dexels.layers;
+  if (read.cut.cutter.rounded() && read.blank) // thin ones at each tip
+    layers = static_cast<double>(machining::slices_of(read.cut, {.axial_depth = read.axial_depth,
+                                                                 .layers = read.dexels.layers,
+                                                                 .steps = read.dexels.steps,
+                                                                 .passes = read.passes,
+                                                                 .blank = read.blank})
+                                     .size());
   const double cells = size.x() / cell * (size.y() / cell) * layers;
   if (cells <= most) return "";
   return fmt::format("holds {:.3g} cells of dexels, expected at most {:g}: a smaller workpiece, fewer "

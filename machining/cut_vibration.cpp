@@ -72,14 +72,13 @@ std::optional<CutVibration::Growth> CutVibration::growth() const {
     growth.size = std::sqrt(square / static_cast<double>(period));
   }
   if (number.size() < least - 1) return std::nullopt;
-  const auto factor = [&](std::size_t last) {
-    const auto begin = static_cast<std::ptrdiff_t>(number.size() - last);
-    const std::vector<double> periods_on(number.begin() + begin, number.end()),
-        sizes(logarithm.begin() + begin, logarithm.end());
-    return std::exp(fit_line(periods_on, sizes, std::vector<double>(last, 0.0)).slope.value);
+  const auto slope = [&](std::size_t last) {
+    const std::span<const double> periods_on(number), sizes(logarithm);
+    return fit_line(periods_on.last(last), sizes.last(last), std::vector<double>(last, 0.0)).slope;
   };
-  growth.factor = factor(number.size());
-  growth.late = factor(std::max(least - 1, number.size() / 3));
+  growth.factor = std::exp(slope(number.size()).value);
+  const Estimate late = slope(std::max(least - 1, number.size() / 3));
+  growth.late = std::exp(late.value - 2.0 * late.error);
   double square = 0.0;
   for (const Signal signal : {x, y}) {
     const std::vector<double>& sample = sample_[signal];

@@ -35,9 +35,10 @@ public:
 
   struct Growth {
     double factor = 0.0; ///< of disturbances in a period
-    double late = 0.0;   ///< the same of the last third of the periods: large vibrations come and go
-    double size = 0.0;   ///< m, by how much a sample differs from the one a period before, root of the mean
-                         ///< square at the end
+    /// The same of the last third of the periods, five at least, less two standard errors.
+    double late = 0.0;
+    double size = 0.0; ///< m, by how much a sample differs from the one a period before, root of the mean
+                       ///< square at the end
     double vibration = 0.0; ///< m, of samples about their mean, root of the mean square
   };
   /// From differences to samples a period before, in which nothing is left of the forced vibration: a line

@@ -13,10 +13,10 @@ namespace {
 
 /// What changes over the height, in layers.
 struct Courses {
-  double entry, exit, lead, rake;
+  double entry, exit, lead, height;
   double apart(const Courses& other) const {
     return std::max({std::abs(entry - other.entry), std::abs(exit - other.exit), std::abs(lead - other.lead),
-                     std::abs(rake - other.rake)});
+                     std::abs(height - other.height)});
   }
 };
 
@@ -51,7 +51,7 @@ LayerGrading::LayerGrading(const MillingCut& cut, double depth, int steps) {
   assert(depth > 0.0 && steps > 0);
   constexpr double degree = std::numbers::pi / 180.0;
   const double step = std::clamp(full_turn / steps, 0.5 * degree, degree);
-  constexpr double turn = 4.5 * degree, share = 0.2; // of a layer: by which normals turn; of the depth
+  constexpr double turn = 4.5 * degree, share = 0.05; // of a layer: its normals turn by; of the depth
   const Cutter& cutter = cut.cutter;
   const Lead lead(cutter);
   const auto courses = [&](double z) -> Courses {
@@ -59,10 +59,10 @@ LayerGrading::LayerGrading(const MillingCut& cut, double depth, int steps) {
     return {.entry = (lag + cut.engagement.entry(cutter, radius)) / step,
             .exit = (lag + cut.engagement.exit(cutter, radius)) / step,
             .lead = lead(z) / turn,
-            .rake = cutter.edge ? z / (share * depth) : 0.0};
+            .height = cutter.rounded() ? z / (share * depth) : 0.0};
   };
   constexpr int pieces = 64, halvings = 40;
-  constexpr double finest = 0.1, most = 2e4; // layers in a piece; pieces, of more layers than anybody can cut
+  constexpr double finest = 0.1, most = 2e4; // layers in a piece; pieces
   double whole = 0.0;
   for (int k = 0; k < pieces; ++k)
     whole += courses(depth * (k + 1) / pieces).apart(courses(depth * k / pieces));

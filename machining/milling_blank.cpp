@@ -7,6 +7,7 @@
 #include <cassert>
 #include <cmath>
 #include <fmt/format.h>
+#include <set>
 
 namespace cnem::machining {
 
@@ -41,6 +42,7 @@ Workpiece workpiece_of(const MillingCut& cut, const ProcessSettings& settings) {
 
 std::vector<Slice> slices_of(const MillingCut& cut, const ProcessSettings& settings) {
   assert(!settings.blank || settings.blank->height > 0.0);
+  const double height = settings.blank ? settings.blank->height : settings.axial_depth;
   std::vector<double> between;
   for (const ToolPath& pass : settings.passes) between.push_back(pass.tip());
   if (between.empty()) between.push_back(0.0);
@@ -49,14 +51,23 @@ std::vector<Slice> slices_of(const MillingCut& cut, const ProcessSettings& setti
     const std::vector<double> ends =
         LayerGrading(cut, settings.axial_depth, settings.steps).ends(settings.layers);
     most = 0.0;
-    for (std::size_t k = 1; k < ends.size(); ++k) most = std::max(most, ends[k] - ends[k - 1]);
-    const std::vector<double> tips = between;
-    for (const double tip : tips)
-      for (const double end : ends)
-        if (end > 0.0) between.push_back(tip + end);
+    // Where passes overlap an end of one stands for that of another.
+    constexpr double near = 1.0 / 3.0; // of a layer
+    std::set<double> taken(between.begin(), between.end());
+    const std::vector<double> tips(taken.begin(), taken.end());
+    for (std::size_t k = 1; k < ends.size(); ++k) {
+      const double thickness = ends[k] - ends[k - 1];
+      most = std::max(most, thickness);
+      for (const double tip : tips) {
+        const double z = tip + ends[k];
+        const auto above = taken.lower_bound(z - near * thickness);
+        if (z < height && (above == taken.end() || *above > z + near * thickness)) taken.insert(z);
+      }
+    }
+    between.assign(taken.begin(), taken.end());
   }
   if (settings.blank && settings.blank->left) return divided(settings.blank->left->slices, most, between);
-  return slices(settings.blank ? settings.blank->height : settings.axial_depth, most, between);
+  return slices(height, most, between);
 }
 
 ToolMotion motion_of(const MillingCut& cut, const ProcessSettings& settings) {

@@ -66,35 +66,25 @@ template<int dim> void ExplicitSolver<dim>::prepare(const Resampling<dim>& chang
   renew(change.cloud, &change);
 }
 
-namespace {
-
-/// The operators of a cloud. Meanwhile those that they follow hold no transposed gradients, which steps alone
-/// read, a tenth of the memory at its peak; where the cloud has no valid structure they are made again.
-template<int dim>
-Approximation<dim> rebuilt_beside(Approximation<dim>& present, Discretisation<dim>& method,
-                                  const Cloud<dim>& cloud) {
-  DiscreteOperators<dim>& operators = present.mechanics;
-  if (operators.weighted_gradient[0].empty()) return method.rebuild(cloud);
-  operators.weighted_gradient = {};
-  try {
-    return method.rebuild(cloud);
-  } catch (...) {
-    operators.build_transpose();
-    throw;
-  }
-}
-
-} // namespace
-
 template<int dim> void ExplicitSolver<dim>::renew(Cloud<dim> cloud, const Resampling<dim>* change) {
   NodeState<dim>& node = state_.node;
   PointState<dim>& point = state_.point;
   if (references_ > 0)
     require(model_.method->promises(), Promise::carried_history, model_.method->name(), "a new reference");
-  Approximation<dim> rebuilt = rebuilt_beside(*approximation_, *model_.method, cloud);
-  if constexpr (dim == 3) cloud.simplices = {}, cloud.across = {}; // before nodes move
-  const std::optional<PointChange> points_change =
-      references_ > 0 ? change_of_points(change, cloud, rebuilt.mechanics) : std::nullopt;
+  // Meanwhile the present operators hold no transposed gradients, which steps alone read: a tenth of the
+  // memory at its peak. Where there is no valid structure they are made again.
+  DiscreteOperators<dim>& present = approximation_->mechanics;
+  present.weighted_gradient = {};
+  Approximation<dim> rebuilt;
+  std::optional<PointChange> points_change;
+  try {
+    rebuilt = model_.method->rebuild(cloud);
+    if constexpr (dim == 3) cloud.simplices = {}, cloud.across = {}; // before nodes move
+    if (references_ > 0) points_change = change_of_points(change, cloud, rebuilt.mechanics);
+  } catch (...) {
+    if (references_ > 0) present.build_transpose();
+    throw;
+  }
   Booked booked;
   if (references_ > 0) {
     each([&](Term<dim>& term) { term.leave(body()); });

@@ -142,7 +142,7 @@ private:
   void boundary_nodes() {
     const double spike = std::cos(limit_.spike * std::numbers::pi / 180.0),
                  notch = std::cos(limit_.notch * std::numbers::pi / 180.0);
-    constexpr double flown = 4.0; // spacings: debris that has, turns inside out what hangs on it
+    constexpr double flown = 4.0; // spacings between nodes of debris, beyond which facets come to cross
     for (const NodeIndex b : work_.nodes()) {
       if (!work_.on_boundary(b)) continue;
       const Turn turn = turn_at(b);

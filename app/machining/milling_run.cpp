@@ -242,12 +242,10 @@ MillingRun::judge_vibration(const std::optional<machining::CutVibration::Growth>
   if (modes_.empty()) return Disturbances::unknown;
   if (!growth) return Disturbances::unknown;
   status_.add_metric("milling.growth", growth->factor);
-  constexpr double shrinks = 0.999, felt = 0.1, gone = 1e-3;
+  constexpr double shrinks = 0.999, felt = 0.1;
   const bool small = growth->size <= felt * growth->vibration;
   if (growth->factor > shrinks) return small ? Disturbances::last : Disturbances::grow;
-  return small && (growth->late <= shrinks || growth->size <= gone * growth->vibration)
-             ? Disturbances::die_out
-             : Disturbances::last;
+  return small && growth->late <= 1.0 ? Disturbances::die_out : Disturbances::last;
 }
 
 void MillingRun::judge() {
@@ -261,18 +259,17 @@ void MillingRun::judge() {
   status_.add_metric("milling.removal_rate[m^3/s]", steady.removed / steady.time);
   status_.add_metric("milling.thickest[m]", steady.thickest);
   // Campomanes and Altintas (2003): chips a quarter thicker than without vibration are chatter; but for those
-  // that the teeth alone force, which uneven ones do near a resonance. Teeth that are alike cut chips as
-  // thick as without vibration in one that comes back with each of them, others up to twice as thick: beyond
-  // that some miss the cut, and what dies out are disturbances of a vibration that goes on without them.
+  // that the teeth alone force, which uneven ones do near a resonance, as does a free side that comes nearer.
+  // More than twice as thick they are what teeth have left that missed the cut: what dies out then are
+  // disturbances of a vibration that goes on without them.
   constexpr double chatter = 1.25, missed = 2.0, settled = 0.1;
   const auto growth = vibration_.growth();
   const Disturbances disturbances = judge_vibration(growth);
-  const bool alike = milling.cut.cutter.pattern() == 1 && milling.cut.cutter.run_out == 0.0;
   const auto thicker_than = [&](double times) {
     return !modes_.empty() && still_ > 0.0 && steady.thickest > times * still_;
   };
   const bool thick = thicker_than(chatter);
-  const bool goes_on = disturbances == Disturbances::die_out && thicker_than(alike ? chatter : missed) &&
+  const bool goes_on = disturbances == Disturbances::die_out && thicker_than(missed) &&
                        growth->size < settled * (steady.thickest - still_);
   const bool chatters =
       disturbances == Disturbances::grow || (thick && (disturbances != Disturbances::die_out || goes_on));

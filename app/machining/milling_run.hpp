@@ -46,9 +46,10 @@ private:
   machining::ProcessStep made_step();
   /// Those that are not of a part that deforms.
   std::vector<machining::Mode> modes_of_process() const;
-  /// What becomes of disturbances: they die out where they shrink and are lost beside what the teeth force.
+  /// What becomes of disturbances: they die out where they shrink, do not grow anew, and are lost beside what
+  /// the teeth force.
   enum class Disturbances { unknown, grow, last, die_out };
-  /// Their growth, and the frequency of the teeth.
+  /// Tells their growth, and the frequency of the teeth.
   Disturbances judge_vibration(const std::optional<machining::CutVibration::Growth>& growth);
   /// Whole turns that stand for the cut: the last ones, a share of all, up to where the feed ends; of passes,
   /// which enter and leave, those in the middle half of the last one. most: turns.

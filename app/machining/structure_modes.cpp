@@ -79,7 +79,7 @@ SparseMatrix displacement_on_the_way(const input::Case& input, const machining::
 }
 
 bool is_felt(const machining::Eigenmodes& modes, Eigen::Index mode, const Vec3& motion) {
-  constexpr double still = 1e-6; // what is left of a mean over a face that a mode turns by
+  constexpr double still = 1e-6; // means over a face cancel to this
   return motion.norm() > still * modes.shape.col(mode).cwiseAbs().maxCoeff();
 }
 

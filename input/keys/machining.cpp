@@ -237,8 +237,10 @@ void add_milling(Keys& k) {
        "each `tip` of a pass lies between two.")
       .in({.low = 1, .high = 2000})
       .example("20")
-      .computed("edges of a layer enter and leave at most a step, 0.5 to 1 deg, after those below, and their "
-                "normal leans by 4.5 deg less at most");
+      .computed(
+          "edges of a layer enter and leave at most a step, 0.5 to 1 deg, after those below; of rounded "
+          "ends and rake faces their normal leans by 4.5 deg less at most, and it is a twentieth of the "
+          "depth at most");
   k.add("dexels.steps", integer, "In a turn.").in({.low = 36, .high = 1e6}).fallback("720");
 }
 

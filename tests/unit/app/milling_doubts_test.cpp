@@ -80,7 +80,8 @@ TEST(MillingDoubts, LayersOfABallAreOfWhereItsEdgesEnter) {
   };
   EXPECT_EQ(read("flat").dexels.layers, 12); // 5.51 degrees of lag
   // They enter at acos(3/r), from 0 to 25.2 degrees on the ball up to r = 3.317 mm, and lag by 3.8 there.
-  EXPECT_EQ(read("ball").dexels.layers, 59); // below 0.804 mm, where they do not enter, normals turn by 30
+  EXPECT_EQ(read("ball").dexels.layers,
+            66); // and below 0.804 mm, where they do not enter, pass a twentieth each
 }
 
 // A ball of 6 mm, 1 mm deep, reaches 3.317 mm from its axis.

@@ -5,6 +5,8 @@
 #include "tests/degree.hpp"
 #include "tests/unit/machining/benchmarks.hpp"
 
+#include "core/index.hpp"
+
 #include <algorithm>
 #include <array>
 #include <gtest/gtest.h>
@@ -25,35 +27,86 @@ TEST(LayerGrading, OfAHelixLayersAreEquallyThick) {
   const std::vector<double> ends = grading.ends(5);
   ASSERT_EQ(ends.size(), 6U);
   for (std::size_t k = 0; k < 6; ++k) EXPECT_NEAR(ends[k], 0.8e-3 * static_cast<double>(k), 1e-15);
-  EXPECT_GT(LayerGrading(cut, 1e6, 720).layers(), 1'000'000) << "as soon";
+  EXPECT_GT(LayerGrading(cut, 1e6, 720).layers(), 1'000'000);
   cut.cutter.helix = 0.0;
   EXPECT_EQ(LayerGrading(cut, 4e-3, 720).layers(), 1);
   EXPECT_EQ(LayerGrading(cut, 4e-3, 720).ends(5), (std::vector{0.0, 4e-3}));
 }
 
+/// Whether no layer lets edges enter or leave, normals turn, or a height pass by more than it may.
+void expect_fine(const MillingCut& cut, double depth, const std::vector<double>& end) {
+  constexpr double little = 1.05; // between tenths of a layer heights are linear
+  const Cutter& cutter = cut.cutter;
+  for (std::size_t k = 1; k < end.size(); ++k) {
+    const auto differs = [&](const auto& at) { return std::abs(at(end[k]) - at(end[k - 1])); };
+    EXPECT_LE(
+        differs([&](double z) { return cutter.lag(z) + cut.engagement.entry(cutter, cutter.radius_at(z)); }),
+        little * degree)
+        << k;
+    EXPECT_LE(
+        differs([&](double z) { return cutter.lag(z) + cut.engagement.exit(cutter, cutter.radius_at(z)); }),
+        little * degree)
+        << k;
+    EXPECT_LE(end[k] - end[k - 1], little * 0.05 * depth) << k;
+    EXPECT_LE(cutter.lead(end[k], end[k]) - cutter.lead(end[k - 1], end[k - 1]), little * 4.5 * degree) << k;
+  }
+}
+
 TEST(LayerGrading, OfABallLayersEndByWhereItsEdgesEnterAndByItsNormal) {
   MillingCut cut = milling_cut(3, 1e9, 0.0, up, 0.5);
   cut.cutter.corner = cut.cutter.radius();
-  // Half a slot ends where edges of any radius leave: normals alone turn, by acos(1 − 4/6) up to 4 mm.
-  const double turn = std::acos(1.0 / 3.0);
+  // Half a slot ends where edges of any radius leave: normals turn, by acos(1 − 4/6) up to 4 mm, and heights
+  // pass.
   const LayerGrading half(cut, 4e-3, 360);
-  EXPECT_EQ(half.layers(), static_cast<int>(std::ceil(turn / (4.5 * degree))));
-  const std::vector<double> ends = half.ends(7);
-  ASSERT_EQ(ends.size(), 8U);
-  for (std::size_t k = 0; k < 8; ++k)
-    EXPECT_NEAR(ends[k], 6e-3 * (1.0 - std::cos(turn * static_cast<double>(k) / 7.0)), 4e-6) << k;
+  EXPECT_GE(half.layers(), 20);
+  EXPECT_LE(half.layers(), 26);
+  expect_fine(cut, 4e-3, half.ends(half.layers()));
+  EXPECT_LT(half.ends(half.layers())[1], 6e-3 * (1.0 - std::cos(4.51 * degree))) << "at the tip";
   // 2 mm beside the axis: edges are in the cut above 0.343 mm, where they leave as a root of the height.
   cut.engagement.radial_depth = 4e-3;
   const LayerGrading beside(cut, 4e-3, 360);
   EXPECT_GE(beside.layers(), static_cast<int>(std::acos(2.0 / std::sqrt(32.0)) / degree));
   const std::vector<double> fine = beside.ends(beside.layers());
-  const double engaged = 6e-3 - std::sqrt(32.0) * 1e-3; // m
-  for (std::size_t k = 1; k < fine.size(); ++k) {
-    const auto exit = [&](double z) { return cut.engagement.exit(cut.cutter, cut.cutter.radius_at(z)); };
-    EXPECT_LE(exit(fine[k]) - exit(fine[k - 1]), 1.001 * degree) << k;
-  }
-  const auto above = std::upper_bound(fine.begin(), fine.end(), engaged);
+  expect_fine(cut, 4e-3, fine);
+  const auto above = std::upper_bound(fine.begin(), fine.end(), 6e-3 - std::sqrt(32.0) * 1e-3);
+  ASSERT_GT(fine.end() - above, 1);
   EXPECT_LT(*(above + 1) - *above, 0.002e-3) << "there they are thin";
+}
+
+TEST(LayerGrading, OfABullWithStraightEdgesTheSideIsDividedToo) {
+  MillingCut cut = milling_cut(3, 1e9, 0.0, up, 0.5);
+  cut.cutter.corner = 1e-3;
+  const LayerGrading grading(cut, 10e-3, 360);
+  expect_fine(cut, 10e-3, grading.ends(grading.layers()));
+}
+
+// Passes of a ball: thin layers over each tip, of which those that another pass has near are left out.
+TEST(Slices, OfARoundedCutterAreThinOverEachTip) {
+  MillingCut cut = milling_cut(3, 1e9, 0.0, up, 0.5);
+  cut.cutter.corner = cut.cutter.radius();
+  cut.engagement.radial_depth = 4e-3;
+  ProcessSettings settings{
+      .axial_depth = 3e-3, .layers = LayerGrading(cut, 3e-3, 360).layers(), .steps = 360};
+  const std::size_t alone = slices_of(cut, settings).size();
+  EXPECT_EQ(alone, index_of(settings.layers));
+  settings.blank = Blank{.low = {0.0, 0.0}, .high = {0.03, 0.03}, .height = 6e-3};
+  for (const double tip : {0.0, 1e-3, 2e-3, 3e-3})
+    settings.passes.push_back(
+        ToolPath({CurvePiece{.from = Vec2::Zero(), .to = Vec2(0.01, 0.0), .name = ""}}, tip));
+  const std::vector<Slice> all = slices_of(cut, settings);
+  EXPECT_LT(all.size(), 4 * alone);
+  double low = 0.0;
+  for (const Slice& slice : all) {
+    EXPECT_NEAR(slice.low, low, 1e-15);
+    EXPECT_GT(slice.thickness, 1e-7);
+    EXPECT_LT(slice.thickness, 0.16e-3);
+    low += slice.thickness;
+  }
+  EXPECT_NEAR(low, 6e-3, 1e-15);
+  for (const ToolPath& pass : settings.passes)
+    EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&](const Slice& slice) {
+      return std::abs(slice.low - pass.tip()) < 1e-12;
+    })) << pass.tip();
 }
 
 /// 16 mm, corner 1.5 mm, 2.5 mm deep, four teeth at uneven pitches with a helix of 35 degrees, run-out 8 µm.
