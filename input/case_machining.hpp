@@ -54,6 +54,6 @@ struct MachiningCase {
 
 /// Why a workpiece of that extent (m) takes more cells of dexels than memory is wanted for; empty: it does
 /// not.
-std::string too_many_cells(const MachiningCase& milling, const Vec2& size, double height);
+std::string too_many_cells(const MachiningCase& milling, const Vec2& size, const machining::Blank& blank);
 
 } // namespace cnem::input

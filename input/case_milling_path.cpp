@@ -168,23 +168,24 @@ void read_path(Setting& root, MachiningCase& read, const std::string& case_path,
   read.blank = read_blank(*workpiece, case_path, diagnostics);
   if (!read.blank || read.passes.empty()) return;
   check_tips(milling, read.blank->height, diagnostics);
-  if (const std::string doubt = too_many_cells(read, read.blank->high - read.blank->low, read.blank->height);
+  if (const std::string doubt = too_many_cells(read, read.blank->high - read.blank->low, *read.blank);
       !doubt.empty())
     diagnostics.add(Mistake::range, workpiece->where, workpiece->path, doubt);
 }
 
-std::string too_many_cells(const MachiningCase& read, const Vec2& size, double height) {
+std::string too_many_cells(const MachiningCase& read, const Vec2& size, const machining::Blank& blank) {
   constexpr double most = 2e8, degrees = 60.0;
-  const double cell = std::max(read.dexels.pitch, read.cut.cutter.radius() / degrees);
-  double layers = std::max(1.0, height / read.axial_depth) * read.dexels.layers;
-  if (read.cut.cutter.rounded() && read.blank) // thin ones at each tip
-    layers = static_cast<double>(machining::slices_of(read.cut, {.axial_depth = read.axial_depth,
-                                                                 .layers = read.dexels.layers,
-                                                                 .steps = read.dexels.steps,
-                                                                 .passes = read.passes,
-                                                                 .blank = read.blank})
-                                     .size());
-  const double cells = size.x() / cell * (size.y() / cell) * layers;
+  const double cell = std::max(read.dexels.pitch, read.cut.cutter.radius() / degrees),
+               of_layer = size.x() / cell * (size.y() / cell),
+               least = std::max(1.0, blank.height / read.axial_depth) * read.dexels.layers;
+  double cells = of_layer * least;
+  if (cells <= most) // which bounds how many there are to list
+    cells = of_layer * static_cast<double>(machining::slices_of(read.cut, {.axial_depth = read.axial_depth,
+                                                                           .layers = read.dexels.layers,
+                                                                           .steps = read.dexels.steps,
+                                                                           .passes = read.passes,
+                                                                           .blank = blank})
+                                               .size());
   if (cells <= most) return "";
   return fmt::format("holds {:.3g} cells of dexels, expected at most {:g}: a smaller workpiece, fewer "
                      "dexels.layers or a larger dexels.pitch",

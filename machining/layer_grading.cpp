@@ -110,4 +110,11 @@ std::vector<double> LayerGrading::ends(int count) const {
   return ends;
 }
 
+double LayerGrading::thickest(int count) const {
+  const std::vector<double> at = ends(count);
+  double most = 0.0;
+  for (std::size_t k = 1; k < at.size(); ++k) most = std::max(most, at[k] - at[k - 1]);
+  return most;
+}
+
 } // namespace cnem::machining

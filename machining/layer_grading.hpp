@@ -19,6 +19,7 @@ public:
   /// m over the tip, count + 1 heights from 0 to the depth: each layer takes an equal share of the changes.
   /// Fewer where several would be at one height, where angles jump, and one layer where nothing changes.
   std::vector<double> ends(int count) const;
+  double thickest(int count) const; ///< m, of those layers
 
 private:
   std::vector<double> height_;  ///< m, from 0 to the depth

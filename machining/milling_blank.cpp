@@ -48,16 +48,15 @@ std::vector<Slice> slices_of(const MillingCut& cut, const ProcessSettings& setti
   if (between.empty()) between.push_back(0.0);
   double most = settings.axial_depth / settings.layers;
   if (cut.cutter.rounded()) {
-    const std::vector<double> ends =
-        LayerGrading(cut, settings.axial_depth, settings.steps).ends(settings.layers);
-    most = 0.0;
+    const LayerGrading grading(cut, settings.axial_depth, settings.steps);
+    const std::vector<double> ends = grading.ends(settings.layers);
+    most = grading.thickest(settings.layers);
     // Where passes overlap an end of one stands for that of another.
     constexpr double near = 1.0 / 3.0; // of a layer
     std::set<double> taken(between.begin(), between.end());
     const std::vector<double> tips(taken.begin(), taken.end());
     for (std::size_t k = 1; k < ends.size(); ++k) {
       const double thickness = ends[k] - ends[k - 1];
-      most = std::max(most, thickness);
       for (const double tip : tips) {
         const double z = tip + ends[k];
         const auto above = taken.lower_bound(z - near * thickness);

@@ -63,7 +63,8 @@ std::shared_ptr<const machining::LeftWorkpiece> workpiece_of_earlier_run(const i
                                        file.string(), error.what()));
   }
   const machining::DexelLayer& layer = left->layers.front();
-  if (const std::string doubt = input::too_many_cells(milling, layer.high() - layer.low(), left->height());
+  if (const std::string doubt = input::too_many_cells(milling, layer.high() - layer.low(),
+                                                      {.height = left->height(), .left = left});
       !doubt.empty())
     throw input.error(key, doubt);
   for (std::size_t k = 0; k < milling.passes.size(); ++k)

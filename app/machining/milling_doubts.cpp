@@ -101,22 +101,14 @@ std::vector<std::string> law_doubts(const input::Case& input, const machining::S
   return doubts;
 }
 
-/// m
-double thickest_layer(const input::MachiningCase& milling) {
-  const std::vector<double> ends =
-      machining::LayerGrading(milling.cut, milling.axial_depth, milling.dexels.steps)
-          .ends(milling.dexels.layers);
-  double most = 0.0;
-  for (std::size_t k = 1; k < ends.size(); ++k) most = std::max(most, ends[k] - ends[k - 1]);
-  return most;
-}
-
 /// Passes that go below matter over the upper end of their edges, which no pass before them has cut.
 std::vector<std::string> reach_doubts(const input::Case& input) {
   const input::MachiningCase& milling = *input.machining;
   std::vector<std::string> doubts;
   if (!milling.cut.cutter.edge || (!milling.passes.empty() && !milling.blank)) return doubts;
-  const double top = milling.cut.cutter.edge->top(), slack = 0.5 * thickest_layer(milling),
+  const double top = milling.cut.cutter.edge->top(),
+               slack = 0.5 * machining::LayerGrading(milling.cut, milling.axial_depth, milling.dexels.steps)
+                                 .thickest(milling.dexels.layers),
                height = milling.blank ? milling.blank->height : milling.axial_depth;
   std::vector<double> tips;
   for (std::size_t pass = 0; pass < std::max<std::size_t>(1, milling.passes.size()); ++pass) {
