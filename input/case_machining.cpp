@@ -12,6 +12,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <functional>
+#include <numbers>
 #include <numeric>
 #include <tuple>
 
@@ -274,6 +275,7 @@ void read_machining(Setting& root, Case& result, Diagnostics& diagnostics) {
                     static_cast<int>(range.get<std::int64_t>("depths")),
                     range.maybe<std::vector<double>>("places").value_or(std::vector<double>{}),
                     std::nullopt};
+  if (range.get<bool>("edge_forces")) read.cut = machining::with_edge_forces(read.cut);
   read_takes(root, result.structure->part, read.stability, diagnostics);
   if (const auto& places = read.stability.places;
       !std::is_sorted(places.begin(), places.end(), std::less_equal<>()) && places.size() > 1)
@@ -287,10 +289,12 @@ void read_machining(Setting& root, Case& result, Diagnostics& diagnostics) {
       }))
     diagnostics.add(Mistake::range, range.find("places")->where, range.find("places")->path,
                     "found places at none of which a mode moves, expected others: nothing can chatter there");
-  if (const Setting& to = *range.find("speed_to"); read.stability.speed_to <= read.stability.speed_from)
+  if (const Setting& to = *range.find("speed_to"); read.stability.speed_to <= read.stability.speed_from) {
+    constexpr double rpm = std::numbers::pi / 30.0; // rad/s
     diagnostics.add(Mistake::range, to.where, to.path,
-                    fmt::format("found {:g} rad/s, expected more than stability.speed_from = {:g} rad/s",
-                                read.stability.speed_to, read.stability.speed_from));
+                    fmt::format("found {:g} rpm, expected more than stability.speed_from = {:g} rpm",
+                                read.stability.speed_to / rpm, read.stability.speed_from / rpm));
+  }
 }
 
 } // namespace cnem::input

@@ -26,14 +26,18 @@ Chip chip_of(const MillingCut& cut, std::size_t tooth) {
 
 } // namespace
 
+MillingCut with_edge_forces(MillingCut cut) {
+  constexpr double share = 1e-4; // of the feed
+  cut.onset = share * cut.feed;
+  return cut;
+}
+
 double steady_thickness(const MillingCut& cut, std::size_t tooth, double phi) {
   const Chip chip = chip_of(cut, tooth);
   return chip.feed * std::sin(phi) + chip.more;
 }
 
-double period_of(const MillingCut& cut) {
-  return cut.cutter.period(!cut.law.linear() || cut.flank.presses());
-}
+double period_of(const MillingCut& cut) { return cut.cutter.period(!cut.linear() || cut.flank.presses()); }
 
 std::vector<double> changes_within(const MillingCut& cut, std::size_t tooth, double radius) {
   const double from = cut.engagement.entry(cut.cutter, radius), to = cut.engagement.exit(cut.cutter, radius);
@@ -44,7 +48,8 @@ std::vector<double> changes_within(const MillingCut& cut, std::size_t tooth, dou
       if (phi > from && phi < to) changes.push_back(phi);
   };
   const Chip chip = chip_of(cut, tooth);
-  if (cut.flank.presses() || !cut.law.linear()) where_sine_is(-chip.more / chip.feed);
+  if (cut.flank.presses() || !cut.linear()) where_sine_is(-chip.more / chip.feed);
+  if (cut.onset > 0.0) where_sine_is((cut.onset - chip.more) / chip.feed);
   if (cut.flank.presses()) {
     const Flank flank = cut.flank.about(radius);
     const double still = std::tan(flank.clearance) - flank.recovery / flank.land;

@@ -15,7 +15,16 @@ struct MillingCut {
   CuttingLaw law;
   Flank flank{};     ///< none: flanks are free
   double feed = 0.0; ///< m per tooth, the mean of a turn
+  /// m of steady_thickness() within which forces rise from none to what the law has there, as stability sees
+  /// them: where an edge comes to the cut moves with vibrations. 0: forces answer by the slope of the law.
+  double onset = 0.0;
+
+  /// Whether forces answer to vibrations alike at any thickness of the chip.
+  bool linear() const { return law.linear() && onset == 0.0; }
 };
+
+/// With what edge forces (those of a chip without thickness) change: onset is 1e-4 of the feed.
+MillingCut with_edge_forces(MillingCut cut);
 
 /// Force on the tool per displacement of it, N/m. Edges at one radius move along themselves in z: nothing.
 using DirectionalFactors = Eigen::Matrix3d;

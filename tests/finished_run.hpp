@@ -15,7 +15,8 @@
 namespace cnem::testing {
 
 struct FinishedRun {
-  results::HistoryTable history, events; ///< events: changes of the cloud, none without adaptation
+  /// events: changes of the cloud, none without adaptation; no history of what is not stepped
+  results::HistoryTable history, events;
   results::RunStatus status;
 
   /// A column of the history or of the changes, by its name with or without the unit.
@@ -52,9 +53,12 @@ inline FinishedRun finish(const input::Case& input) {
   const TemporaryFolder folder("run");
   EXPECT_EQ(app::run(input, {.output = folder.path(), .force = true, .threads = 1, .version = "test"}),
             Exit::done);
-  const std::filesystem::path events = folder.path() / results::files::adaptation;
-  return {.history = results::read_history(folder.path() / results::files::history),
-          .events = std::filesystem::exists(events) ? results::read_history(events) : results::HistoryTable{},
+  const auto read = [&](const char* name) {
+    const std::filesystem::path file = folder.path() / name;
+    return std::filesystem::exists(file) ? results::read_history(file) : results::HistoryTable{};
+  };
+  return {.history = read(results::files::history),
+          .events = read(results::files::adaptation),
           .status = results::read_status(folder.path())};
 }
 

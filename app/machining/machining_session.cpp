@@ -221,6 +221,7 @@ std::string tips_text(const input::MachiningCase& milling) {
 Checked check_machining(const input::Case& input) {
   Checked checked;
   if (!input.machining) {
+    checked.warnings = milling_doubts(input, {});
     checked.facts.emplace_back("case", input.title.empty() ? input.name : input.title);
     describe(input, checked);
     return checked;

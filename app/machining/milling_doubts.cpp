@@ -130,13 +130,29 @@ std::vector<std::string> reach_doubts(const input::Case& input) {
   return doubts;
 }
 
+/// Under a force at a point solids give way without end as cells get smaller (Boussinesq); plates hardly do.
+std::vector<std::string> point_force_doubts(const input::Case& input) {
+  std::vector<std::string> doubts;
+  const auto& part = input.structure->part;
+  if (!part || part->element == machining::PartElement::plate_8) return doubts;
+  for (const input::PartPlace& place : part->places)
+    if (place.at && !place.force.isZero(0.0))
+      doubts.push_back(input
+                           .error("part.points." + place.name + ".force",
+                                  "at a point of solid cells the displacement there grows without end as "
+                                  "cells get smaller, expected a force on a face, or displacements read "
+                                  "beside it")
+                           .what());
+  return doubts;
+}
+
 } // namespace
 
 std::vector<std::string> milling_doubts(const input::Case& input,
                                         const std::vector<input::NamedMode>& modes) {
   std::vector<std::string> doubts;
   if (input.structure->removal) return removal_doubts(input);
-  if (!input.machining) return doubts;
+  if (!input.machining) return point_force_doubts(input);
   const input::MachiningCase& milling = *input.machining;
   const machining::SteadyChips chips = machining::steady_chips(milling.cut, milling.axial_depth);
   if (input.analysis.type == input::Analysis::Type::stability && chips.thinnest <= 0.0)

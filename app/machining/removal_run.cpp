@@ -171,7 +171,6 @@ void describe_removal(const input::Case& input, const machining::Part& part, Che
                                                   si_format(settings.dt, "s"),
                                                   std::min(settings.interval, settings.steps)));
   checked.numbers.emplace_back("steps", static_cast<double>(settings.steps));
-  checked.warnings = removal_doubts(input);
 }
 
 std::vector<std::string> removal_doubts(const input::Case& input) {

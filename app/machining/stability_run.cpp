@@ -93,6 +93,34 @@ void StabilityRun::judge() {
     status_.reason = fmt::format("stable {}: {}", cut, bound);
   if (!stable && limit && limit->depth > milling.axial_depth)
     status_.reason += "; it lies in an island of instability below that limit";
+  doubt_edge_forces(modes, limit, step, deepest);
+}
+
+void StabilityRun::doubt_edge_forces(const std::vector<machining::Mode>& modes,
+                                     const std::optional<machining::DepthLimit>& limit, double step,
+                                     double deepest) {
+  const input::MachiningCase& milling = *input_.machining;
+  if (milling.cut.onset > 0.0) return;
+  const machining::MillingCut cut = machining::with_edge_forces(milling.cut);
+  const machining::LawPoint thin =
+      cut.law.at({.thickness = cut.onset, .speed = milling.speed * cut.cutter.radius()});
+  constexpr double rounding = 1e-9;
+  if ((thin.force - thin.slope * cut.onset).norm() <= rounding * thin.force.norm()) return;
+  const auto with = machining::depth_limit(cut, modes, milling.speed, step, deepest);
+  if (with) status_.add_metric("stability.depth_limit_with_edge_forces[m]", with->depth);
+  const double none = 2.0 * deepest, one = limit ? limit->depth : none, other = with ? with->depth : none;
+  if (constexpr double matters = 0.05; std::abs(other - one) <= matters * one) return;
+  const auto told = [&](const auto& depth) {
+    return depth ? si_format(depth->depth, "m") : "none up to " + si_format(deepest, "m");
+  };
+  status_.warnings.push_back(
+      input_
+          .error("cutting.forces",
+                 fmt::format("edge forces change the limit: it is {} with them, {} without; charts are "
+                             "without them, expected stability.edge_forces = true, or a run in time",
+                             told(with), told(limit)))
+          .what());
+  observer_.remark("warning: " + status_.warnings.back());
 }
 
 void StabilityRun::write_files() {

@@ -16,6 +16,9 @@ private:
   bool solve() override;
   void write_files() override;
   void judge();
+  /// Warns where the limit at the speed of the case is another with edge forces.
+  void doubt_edge_forces(const std::vector<machining::Mode>& modes,
+                         const std::optional<machining::DepthLimit>& limit, double step, double deepest);
 
   machining::StabilityChart chart_;
   std::optional<machining::PlaceChart> places_;

@@ -333,6 +333,11 @@ void add_stability(Keys& k) {
         "A zone of `part.zones` that the cutter takes on its way: at each of `places` what lies behind the "
         "cutter is gone (D 0.999).")
       .example("\"stock\"");
+  k.add("stability.edge_forces", boolean,
+        "Whether edge forces (`Kte`, `Kre`: those of a chip without thickness) count. They push the tool off "
+        "and change nothing, but where an edge comes to the cut, or leaves it, with a chip of no thickness: "
+        "where that happens moves with the vibration. Other programs leave them out.")
+      .fallback("false");
   k.add("stability.depths", integer, "").in({.low = 2, .high = 2000}).fallback("100");
 }
 

@@ -56,6 +56,22 @@ TEST(MillingDoubts, TeethThatMissTheCutAreTheBusinessOfLobes) {
   EXPECT_FALSE(told("milling"));
 }
 
+// Displacements under a force at a point of a solid do not converge (Boussinesq).
+TEST(MillingDoubts, ForcesAtPointsOfSolidsAreTold) {
+  const auto doubts = [](const std::string& element, const std::string& where) {
+    return check(input::read_case_text("[analysis]\ntype = \"modes\"\n[part]\nsize = \"100 40 4 mm\"\n"
+                                       "young = \"200 GPa\"\ndensity = \"7800 kg/m3\"\nclamped = [\"y0\"]\n"
+                                       "element = \"" +
+                                           element + "\"\n[part.points.P]\nforce = \"0 0 1 N\"\n" + where,
+                                       "case.toml", {}),
+                 {})
+        .warnings.size();
+  };
+  EXPECT_EQ(doubts("hexahedron_27", "at = \"100 40 4 mm\""), 1U);
+  EXPECT_EQ(doubts("hexahedron_27", "face = \"y1\""), 0U);
+  EXPECT_EQ(doubts("plate_8", "at = \"100 40 4 mm\""), 0U);
+}
+
 // An edge of 6 mm with a helix of 30 deg on a radius of 6 mm lags by 33.08 deg.
 TEST(MillingDoubts, LayersLagByAStepAtMost) {
   const auto layers = [](const char* steps) {

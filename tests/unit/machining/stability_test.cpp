@@ -7,6 +7,7 @@
 #include "tests/unit/machining/benchmarks.hpp"
 #include "tests/unit/machining/marched_cut.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <array>
 #include <gtest/gtest.h>
 
@@ -163,6 +164,36 @@ TEST_P(Marched, GrowthIsTheSpectralRadius) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, Marched, testing::Range(0, 6));
+
+// Down-milling without forces but those of the edge: where it leaves the cut it does so earlier by Δy/f, an
+// impulse −Kre b Δy/(f Ω) in y once a tooth. Between, the mode is free.
+TEST(Floquet, AnEdgeThatComesAndGoesIsAnImpulse) {
+  MillingCut cut = milling_cut(2, 0.0, 0.0, down, 0.2);
+  LinearLaw law;
+  law.Kre = 26.6e3;
+  cut.law = CuttingLaw(law);
+  const Mode mode = insperger_modes(2).back(); // along y
+  const double spindle = 8700.0 * rpm, T = std::numbers::pi / spindle, w = mode.omega(), z = mode.damping,
+               wd = w * std::sqrt(1.0 - z * z), c = std::cos(wd * T), s = std::sin(wd * T) / wd,
+               decay = std::exp(-z * w * T);
+  EXPECT_NEAR(spectral_radius(cut, std::vector{mode}, spindle, 2e-3), decay, 1e-6); // nothing regenerates
+  bool grows = false;
+  for (const double depth : {0.5e-3, 2e-3, 5e-3}) {
+    // (y, v, y of the tooth before) just before an impulse.
+    Eigen::Matrix3d kick = Eigen::Matrix3d::Identity(), free = Eigen::Matrix3d::Zero();
+    const double g = law.Kre * depth / (cut.feed * spindle) / (mode.stiffness / (w * w));
+    kick.row(1) << -g, 1.0, g;
+    kick.row(2) << 1.0, 0.0, 0.0;
+    free.topLeftCorner<2, 2>() << c + z * w * s, s, -w * w * s, c - z * w * s;
+    free.topLeftCorner<2, 2>() *= decay;
+    free(2, 2) = 1.0;
+    const double exact = Eigen::Matrix3d(free * kick).eigenvalues().cwiseAbs().maxCoeff();
+    EXPECT_NEAR(spectral_radius(with_edge_forces(cut), std::vector{mode}, spindle, depth), exact,
+                2e-3 * std::abs(exact - decay));
+    grows |= exact > 1.0;
+  }
+  EXPECT_TRUE(grows);
+}
 
 TEST(Chart, IsTheSameWithAnyNumberOfThreads) {
   const auto modes = insperger_modes(2);
