@@ -1,15 +1,10 @@
 // What a milling run leaves beside its status: surface, spectra, and the verdict on chatter.
-#include "app/run.hpp"
-#include "input/case_reader.hpp"
-#include "results/history_writer.hpp"
-#include "results/output_folder.hpp"
-#include "results/status.hpp"
-#include "tests/temporary_folder.hpp"
-
-#include <gtest/gtest.h>
+#include "tests/finished_run.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
+#include <numbers>
 #include <sstream>
 #include <tuple>
 
@@ -176,6 +171,27 @@ TEST(MillingFiles, SurfaceIsAGridOfWhatIsLeft) {
       EXPECT_NEAR(pz, 0.1e-3 * (static_cast<double>(layer) - 0.5) / 3.0, 1e-9);
     }
   EXPECT_TRUE(std::filesystem::exists(folder.path() / results::files::pictures_folder / "surface_000.png"));
+}
+
+// Scallops of a ball end in up-milling are parabolas of f²/8(r + f/2π) (one tooth) at a radius r = R sin κ,
+// of which Ra is 0.2566; over the height, dz = R sin κ dκ. Layers are thin near the tip, where scallops are
+// high: a mean over layers alike would be half as much again.
+TEST(MillingFiles, RoughnessIsAMeanOverTheHeight) {
+  constexpr double R = 6e-3, f = 0.4e-3, depth = 3e-3;
+  const FinishedRun run =
+      finish(input::read_case(std::string(CNEM_SOURCE_DIR) + "/cases/milling/end_mill_forces/case.toml",
+                              {"cutter.end=ball", "cutter.helix=0 deg", "cutter.teeth=1", "milling.side=up",
+                               "milling.radial_depth=6 mm", "milling.axial_depth=3 mm", "milling.feed=0.4 mm",
+                               "milling.length=3.2 mm", "dexels.steps=2880"}));
+  constexpr int pieces = 1000;
+  const double top = std::acos(1.0 - depth / R), way = f / (2.0 * std::numbers::pi);
+  double mean = 0.0; // of 1/(r + f/2π) over the height
+  for (int i = 0; i < pieces; ++i) {
+    const double sine = std::sin((i + 0.5) * top / pieces);
+    mean += R * sine / (R * sine + way) * top / pieces / depth;
+  }
+  const double exact = 0.2566 * f * f / 8.0 * mean;
+  EXPECT_NEAR(run.metric("milling.Ra") / exact, 1.0, 0.06);
 }
 
 } // namespace cnem::testing

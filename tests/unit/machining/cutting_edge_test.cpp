@@ -3,6 +3,7 @@
 
 #include "core/error.hpp"
 #include "machining/engaged_edges.hpp"
+#include "machining/layer_grading.hpp"
 #include "machining/milling_process.hpp"
 #include "machining/stability.hpp"
 #include "machining/zero_order.hpp"
@@ -85,6 +86,23 @@ Cutter traced(const Cutter& cutter, double top) {
   other.helix = other.corner = 0.0;
   other.edge = std::make_shared<const CuttingEdge>(rake_face(cutter, top));
   return other;
+}
+
+// Layers of a rake face that is that of a ball: as those of the ball, of arcs in place of straight parts.
+TEST(CuttingEdge, HasTheLayersOfItsCutter) {
+  MillingCut ball = milling_cut(3, 1e9, 0.0, Engagement::Side::up, 0.5);
+  ball.cutter.corner = ball.cutter.radius();
+  ball.cutter.helix = 0.4;
+  ball.engagement.radial_depth = 4e-3; // in the cut above 0.343 mm
+  MillingCut edge = ball;
+  edge.cutter.edge = std::make_shared<const CuttingEdge>(rake_face(ball.cutter, 4e-3));
+  const LayerGrading exact(ball, 3e-3, 360), of_edge(edge, 3e-3, 360);
+  EXPECT_NEAR(of_edge.layers(), exact.layers(), 0.05 * exact.layers());
+  const std::vector<double> a = exact.ends(30), b = of_edge.ends(30);
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t k = 0; k < a.size(); ++k) EXPECT_NEAR(b[k], a[k], 0.01 * 3e-3) << k;
+  EXPECT_NEAR(of_edge.thickest(30), exact.thickest(30), 0.1 * exact.thickest(30));
+  EXPECT_LT(exact.thickest(30), 0.4e-3);
 }
 
 } // namespace
