@@ -175,7 +175,7 @@ TEST(MillingFiles, SurfaceIsAGridOfWhatIsLeft) {
 
 // Scallops of a ball end in up-milling are parabolas of f²/8(r + f/2π) (one tooth) at a radius r = R sin κ,
 // of which Ra is 0.2566; over the height, dz = R sin κ dκ. Layers are thin near the tip, where scallops are
-// high: a mean over layers alike would be half as much again.
+// high: a mean over layers alike would be two thirds more.
 TEST(MillingFiles, RoughnessIsAMeanOverTheHeight) {
   constexpr double R = 6e-3, f = 0.4e-3, depth = 3e-3;
   const FinishedRun run =
