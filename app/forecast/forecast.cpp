@@ -90,14 +90,29 @@ double usual_step(const Model<2>& model, double spacing, double safety) {
 
 /// Of a node and step, s: of one thread on an idle core, from the runs of docs/cutting.md;
 /// docs/performance.md has the parts.
-double cost_of_steps(const input::Case& input) { return (input.contact.active ? 115.0 : 90.0) * 1e-9; }
+double cost_of_steps(const input::Case& input, int dim) {
+  if (dim == 2) return (input.contact.active ? 115.0 : 90.0) * 1e-9;
+  return (input.contact.active ? 500.0 : input.tools.empty() ? 130.0 : 360.0) * 1e-9;
+}
 
 /// The same of passes, over the steps there would be with masses as they are: they come by the strain, the
 /// rarer the more of it a reference bears, which longer steps do not change.
-double cost_of_passes(const input::Case& input) {
-  if (!input.adapt.resample) return 0.0;
+double cost_of_passes(const input::Case& input, int dim) {
+  if (!input.adapt.resample || (dim == 3 && input.tools.empty())) return 0.0;
   const double strain = input.method.rereference_strain;
-  return (strain > 0.0 ? 6.7 / strain : 30.0) * 1e-9;
+  return (strain > 0.0 ? (dim == 2 ? 6.7 : 29.0) / strain : dim == 2 ? 30.0 : 130.0) * 1e-9;
+}
+
+/// By how much steps get shorter in space while tools go on, whose cells passes there keep less even than in
+/// the plane: by their way over the spacing of the cells that limit the first step, from the runs of
+/// docs/cutting.md.
+double squeezed_by_tools(const input::Case& input, const ExplicitSolver<3>& solver, double spacing) {
+  if (!input.adapt.resample || input.time.fixed) return 1.0;
+  constexpr double each = 0.2, most = 20.0;
+  double way = 0.0;
+  for (const contact::Tool<3>& tool : solver.conditions().contact.tools())
+    way = std::max(way, tool.led_displacement(input.time.end).norm());
+  return 1.0 + each * std::min(way / spacing, most);
 }
 
 /// A part of the run in which cells of one spacing limit the step.
@@ -209,7 +224,8 @@ Forecast forecast(const input::Case& input, const ExplicitSolver<dim>& solver, c
   Forecast expected;
   expected.nodes_first = expected.nodes_last = count;
   std::vector<Stretch> course;
-  double spacing = 0.0; // m, of the cells that limit the first step
+  double spacing = 0.0;  // m, of the cells that limit the first step
+  double squeezed = 1.0; // steps that are taken over those of cells as they are
   if constexpr (dim == 2) {
     const Cloud<2>& cloud = solver.conditions().cloud;
     const adapt::Structure structure = adapt::build_structure(cloud, input.analysis.space());
@@ -225,7 +241,11 @@ Forecast forecast(const input::Case& input, const ExplicitSolver<dim>& solver, c
     }
   }
   if constexpr (dim == 3) {
-    spacing = expected.finest = input.cloud.spacing;
+    const clouds::SpaceSpacing wanted{input.cloud.spacing, input.cloud.space_refinements};
+    spacing = expected.finest =
+        control.point() ? wanted.at(solver.conditions().cloud.position[node_of(solver, *control.point())])
+                        : input.cloud.spacing;
+    squeezed = squeezed_by_tools(input, solver, spacing);
     if (input.adapt.tool_spacing) {
       expected.nodes_last = expected.nodes_first += nodes_at_ridges(input, solver);
       expected.finest = std::min(spacing, *input.adapt.tool_spacing);
@@ -236,11 +256,12 @@ Forecast forecast(const input::Case& input, const ExplicitSolver<dim>& solver, c
   const Steps steps(input, solver, control, spacing);
   double node_steps = 0.0;
   for (const Stretch& stretch : course) {
-    const double step = steps.of(stretch.spacing), taken = stretch.duration / step;
+    const double step = steps.of(stretch.spacing), taken = squeezed * stretch.duration / step;
     expected.steps += taken;
     node_steps += taken * stretch.nodes;
-    expected.seconds += taken * stretch.nodes *
-                        (cost_of_steps(input) + step / steps.light(stretch.spacing) * cost_of_passes(input));
+    expected.seconds +=
+        taken * stretch.nodes *
+        (cost_of_steps(input, dim) + step / steps.light(stretch.spacing) * cost_of_passes(input, dim));
   }
   expected.nodes_mean = node_steps / expected.steps;
   expected.steps = std::ceil(expected.steps);

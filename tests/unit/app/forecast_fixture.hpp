@@ -11,16 +11,16 @@
 
 namespace cnem::app {
 
-inline Forecast expected_of(const input::Case& input) {
-  ExplicitSolver<2> solver = testing::solver_of(input);
+template<int dim = 2> Forecast expected_of(const input::Case& input) {
+  ExplicitSolver<dim> solver = testing::solver_of<dim>(input);
   StepControl control(input.time);
   control.refresh(solver);
   return forecast(input, solver, control);
 }
 
 /// Within 1.5 in steps, nodes at the end and nodes in the mean.
-inline void expect_that_it_fits_its_run(const input::Case& input) {
-  const Forecast expected = expected_of(input);
+template<int dim = 2> void expect_that_it_fits_its_run(const input::Case& input) {
+  const Forecast expected = expected_of<dim>(input);
   const testing::TemporaryFolder folder("forecast");
   ASSERT_EQ(run(input, {.output = folder.path() / "results", .threads = 1, .version = "test"}), Exit::done);
   const results::RunStatus status = results::read_status(folder.path() / "results");

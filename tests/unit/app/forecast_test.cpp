@@ -36,6 +36,20 @@ TEST(Forecast, FitsTheRunOfACut) {
   expect_that_it_fits_its_run(read(cut, {"output.pictures=[]", "cutting.length=0.2 mm"}));
 }
 
+// In space cells get smaller as the tool goes on than those that its first step is of.
+TEST(Forecast, FitsTheRunOfAnObliqueCut) {
+  const std::string path = std::string(CNEM_SOURCE_DIR) + "/cases/three_dimensions/oblique_cutting/case.toml";
+  const auto to = [&](const std::string& length, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> set{"let.length=" + length, "output.pictures=[]"};
+    set.insert(set.end(), more.begin(), more.end());
+    return input::read_case(path, set);
+  };
+  expect_that_it_fits_its_run<3>(to("0.15 mm"));
+  const Forecast cut = expected_of<3>(to("0.15 mm")), longer = expected_of<3>(to("0.3 mm"));
+  EXPECT_GT(longer.steps, 2.2 * cut.steps);
+  EXPECT_LT(expected_of<3>(to("0.15 mm", {"adapt.resample=false"})).steps, 0.8 * cut.steps);
+}
+
 TEST(Forecast, CountsWithWhatRefines) {
   const std::string light = "time.mass_scaling.factor=1", fine = "adapt.tool_spacing=5 um";
   const Forecast plain = expected_of(read(cut, {light, "adapt.tool_spacing=15 um"})),
