@@ -1,5 +1,6 @@
 // Tools that answer nodes inside them one by one, as contact/responses/list.hpp has it.
 #include "contact/arc_offset.hpp"
+#include "contact/contact.hpp"
 #include "contact/sweeper.hpp"
 #include "core/index.hpp"
 

@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/index.hpp"
+#include "core/parameter.hpp"
 
 #include <algorithm>
 #include <cassert>
