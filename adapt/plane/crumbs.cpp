@@ -1,5 +1,6 @@
 // Crumbs: bodies of a few nodes, none of them inside, that are thinner than films may be or next to nothing:
-// what is left of films that were cut, and debris that was pressed flat.
+// what is left of films that were cut, and debris that was pressed flat. Or debris that flies apart: its
+// nodes bear nothing together and go their ways until the loop turns inside out.
 #include "adapt/plane/apply_valid.hpp"
 #include "adapt/plane/resample.hpp"
 #include "core/index.hpp"
@@ -48,6 +49,16 @@ bool is_thin(const WorkingCloud& work, const std::vector<NodeIndex>& loop, const
   const double thinnest =
       std::max(rules.thinnest_film, rules.nothing * work.node().size[index_of(loop.front())]);
   return twice > 0.0 && twice < thinnest * length;
+}
+
+/// Whether it is debris alone, with nodes of one facet as far apart as nothing holds them.
+bool flies_apart(const WorkingCloud& work, const std::vector<NodeIndex>& loop) {
+  const auto& at = work.cloud().position;
+  return std::all_of(loop.begin(), loop.end(), [&](NodeIndex i) { return work.is_debris(i); }) &&
+         std::any_of(loop.begin(), loop.end(), [&](NodeIndex i) {
+           const NodeIndex next = work.next(i);
+           return (at[next] - at[i]).norm() > debris_flown * work.size_between(i, next);
+         });
 }
 
 /// The nearest node at the boundary of other matter of the same part that is to stay; none where all of it
@@ -99,7 +110,7 @@ void join_crumbs(WorkingCloud& work, Structure& structure, const SplitRules& rul
     if (loop.empty() || *std::min_element(loop.begin(), loop.end()) != start ||
         !is_body(work, structure, loop))
       continue;
-    if (!is_thin(work, loop, rules)) continue;
+    if (!is_thin(work, loop, rules) && !flies_apart(work, loop)) continue;
     for (const NodeIndex i : loop) gone[i] = 1;
     thin.push_back(loop);
   }

@@ -142,7 +142,6 @@ private:
   void boundary_nodes() {
     const double spike = std::cos(limit_.spike * std::numbers::pi / 180.0),
                  notch = std::cos(limit_.notch * std::numbers::pi / 180.0);
-    constexpr double flown = 4.0; // spacings between nodes of debris, beyond which facets come to cross
     for (const NodeIndex b : work_.nodes()) {
       if (!work_.on_boundary(b)) continue;
       const Turn turn = turn_at(b);
@@ -152,7 +151,7 @@ private:
       if (shortest < limit_.short_edge * h && turn.area < limit_.flat_area * h * h)
         list_.push_back({b, shortest / (limit_.short_edge * h)});
       else if (turn.reflex ? turn.cosine > notch && std::max(turn.back, turn.ahead) < limit_.shallow * h
-                           : turn.cosine > spike || (work_.is_debris(b) && shortest > flown * h))
+                           : turn.cosine > spike || (work_.is_debris(b) && shortest > debris_flown * h))
         list_.push_back({b, 0.5});
     }
   }

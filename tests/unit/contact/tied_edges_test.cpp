@@ -68,13 +68,13 @@ struct Roofs : SpaceMasses {
 TEST(TiedEdges, on_a_seam_bear_what_both_bear) {
   for (const int shift : {0, 1, -1})
     for (const bool upper_first : {false, true}) {
-      const auto crossed = [&](bool tied, int shift) {
+      const auto crossed = [&](bool tied, int seam) {
         Roofs roofs;
         if (upper_first) roofs.upper();
-        roofs.half(1, shift < 0 ? -Roofs::apart : 0.0);
-        roofs.half(-1, shift > 0 ? Roofs::apart : 0.0);
+        roofs.half(1, seam < 0 ? -Roofs::apart : 0.0);
+        roofs.half(-1, seam > 0 ? Roofs::apart : 0.0);
         if (!upper_first) roofs.upper();
-        roofs.start(tied, shift);
+        roofs.start(tied, seam);
         for (int n = 0; n < 11; ++n) roofs.step(1e-3);
         return roofs;
       };
