@@ -146,15 +146,10 @@ PartCase read_part(const Setting& table, Analysis::Type type, Diagnostics& diagn
     return part;
   }
   part.element = table.choice<machining::PartElement>("element");
-  part.shape.divisions = read_cells(table, part.shape.size, part.element, diagnostics);
   part.shape.materials = {read_solid(table)};
   read_zones(table, part.shape, diagnostics);
   read_supports(table, part, diagnostics);
-  if (!table.find("cells") && part.element == machining::PartElement::hexahedron_27)
-    for (const auto& beside :
-         {machining::beside_steps(part.shape), machining::beside_clamps(part.shape, part.supports)})
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        part.shape.more[axis].insert(part.shape.more[axis].end(), beside[axis].begin(), beside[axis].end());
+  read_cells(table, part.element, part.supports, part.shape, diagnostics);
   read_damping(table, part, diagnostics);
   read_directions(table, part, diagnostics);
   read_mapping(table, type, part, diagnostics);

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 
 namespace cnem::input {
 
@@ -13,8 +14,9 @@ namespace cnem::input {
 std::optional<std::array<int, 3>> whole_numbers(const Setting& written, const char* what, double most,
                                                 Diagnostics& diagnostics);
 
-/// Cells of a box of some size (m), as `cells` of its table says or by default.
-std::array<int, 3> read_cells(const Setting& part, const Vec3& size, machining::PartElement element,
-                              Diagnostics& diagnostics);
+/// Divides a part with zones as `cells` of its table says, or by default.
+void read_cells(const Setting& part, machining::PartElement element,
+                std::span<const machining::PartSupport> supports, machining::PartShape& shape,
+                Diagnostics& diagnostics);
 
 } // namespace cnem::input

@@ -64,7 +64,9 @@ void add_part(Keys& k) {
       .example("\"20 8 1\"")
       .computed(
           "20 along the longest side, of `hexahedron_27` 30 where that makes at most 1000, as long along the "
-          "others; of `hexahedron_27` thin ones too on both sides of steps and beside clamped faces");
+          "others; of `hexahedron_27` thin ones too on both sides of steps and beside clamped faces, and "
+          "fewer "
+          "along the longest side, down to 10, where they are more than 3000 then");
   k.add("part.clamped", choices, "Faces of the box that are held, `x0` where x is 0.")
       .one_of(faces)
       .example("[\"y0\"]");

@@ -18,9 +18,10 @@ struct Eigenmodes {
 };
 
 /// The lowest `count` of them, by block Lanczos on K⁻¹ M with the factor of K (Golub and Underwood 1977),
-/// until frequencies change by less than 1e-10 of themselves and residuals agree. Modes of the same frequency
+/// until frequencies change by less than 1e-10 of themselves and residuals are below 1e-7, or, where rounding
+/// keeps them from it, below 1e-4 after eight more blocks. Modes of the same frequency
 /// are all found, up to four. The same bits for the same matrices. Throws InputError where K is not positive
-/// definite, and when there are fewer unknowns than modes.
+/// definite, where modes do not come together, and when there are fewer unknowns than modes.
 Eigenmodes lowest_modes(const SparseMatrix& stiffness, const SparseMatrix& mass, Eigen::Index count);
 
 /// Damping of each mode: its own, or Rayleigh's C = α M + β K.

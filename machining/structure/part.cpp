@@ -37,7 +37,29 @@ bool within(const Vec3& point, const Vec3& low, const Vec3& high, double slack) 
   return ((point - low).array() >= -slack).all() && ((high - point).array() >= -slack).all();
 }
 
+/// The one that counts at a point; null: none.
+const PartZone* zone_at(const PartShape& shape, const Vec3& point) {
+  const PartZone* there = nullptr;
+  for (const PartZone& zone : shape.zones)
+    if (within(point, zone.low, zone.high, 0.0)) there = &zone;
+  return there;
+}
+
 } // namespace
+
+std::size_t cells_of(const PartShape& shape) {
+  const std::array line{lines(shape, 0), lines(shape, 1), lines(shape, 2)};
+  std::size_t cells = 0;
+  for (std::size_t i = 0; i + 1 < line[0].size(); ++i)
+    for (std::size_t j = 0; j + 1 < line[1].size(); ++j)
+      for (std::size_t k = 0; k + 1 < line[2].size(); ++k) {
+        const Vec3 low(line[0][i], line[1][j], line[2][k]),
+            high(line[0][i + 1], line[1][j + 1], line[2][k + 1]);
+        const PartZone* zone = zone_at(shape, 0.5 * (low + high));
+        if (!zone || zone->taken < 1.0) ++cells;
+      }
+  return cells;
+}
 
 std::array<std::vector<double>, 3> beside_steps(const PartShape& shape) {
   std::array<std::vector<double>, 3> steps, beside;
@@ -108,13 +130,9 @@ void Part::divide() {
       for (std::size_t k = 0; k + 1 < line_[2].size(); ++k) {
         const Vec3 low(line_[0][i], line_[1][j], line_[2][k]),
             high(line_[0][i + 1], line_[1][j + 1], line_[2][k + 1]);
-        std::size_t material = 0;
-        double taken = 0.0;
-        for (const PartZone& zone : shape_.zones)
-          if (within(0.5 * (low + high), zone.low, zone.high, 0.0)) {
-            material = zone.material;
-            taken = zone.taken;
-          }
+        const PartZone* zone = zone_at(shape_, 0.5 * (low + high));
+        const std::size_t material = zone ? zone->material : 0;
+        const double taken = zone ? zone->taken : 0.0;
         if (taken >= 1.0) continue;
         Cell cell{.low = low, .size = high - low, .node = {}};
         cell.matrices = matrices_of(cell.size, height(low.z()), material);

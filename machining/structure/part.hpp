@@ -28,6 +28,9 @@ struct PartShape {
   std::array<std::vector<double>, 3> more{}; ///< m, places along each axis where cells end, too
 };
 
+/// How many cells it has.
+std::size_t cells_of(const PartShape& shape);
+
 /// Places beside the ends of zones of which something is gone, within the box, by a quarter of the smallest
 /// length between such ends: what bends at a step is as high as that, whatever the cells elsewhere; at least
 /// a tenth of a cell. m

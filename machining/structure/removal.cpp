@@ -145,6 +145,10 @@ void machine(const Part& part, const RemovalSettings& settings, RemovalState& st
       ledger.elastic = energy(system.now().stiffness, motion.q);
       ledger.work = ledger.kinetic + ledger.elastic; // what was there
       force_before = load(0.0, motion.q);
+      motion.acceleration = // else the scheme is of first order
+          SparseCholesky(system.now().mass)
+              .solve(force_before - system.now().damping * motion.velocity -
+                     system.now().stiffness * motion.q);
     }
     for (std::int64_t step = begin; step < end; ++step) {
       const double now = time(step + 1), eta = (now - time(begin)) / (time(end) - time(begin));
