@@ -260,8 +260,8 @@ void MillingRun::judge() {
   status_.add_metric("milling.thickest[m]", steady.thickest);
   // Campomanes and Altintas (2003): chips a quarter thicker than without vibration are chatter; but for those
   // that the teeth alone force, which uneven ones do near a resonance, as does a free side that comes nearer.
-  // More than twice as thick they are what teeth have left that missed the cut: what dies out then are
-  // disturbances of a vibration that goes on without them.
+  // Of teeth that are alike, more than twice as thick they are what teeth have left that missed the cut: what
+  // dies out then are disturbances of a vibration that goes on without them.
   constexpr double chatter = 1.25, missed = 2.0, settled = 0.1;
   const auto growth = vibration_.growth();
   const Disturbances disturbances = judge_vibration(growth);
@@ -269,7 +269,8 @@ void MillingRun::judge() {
     return !modes_.empty() && still_ > 0.0 && steady.thickest > times * still_;
   };
   const bool thick = thicker_than(chatter);
-  const bool goes_on = disturbances == Disturbances::die_out && thicker_than(missed) &&
+  const bool alike = milling.cut.cutter.period(true) == milling.cut.cutter.pitch[0];
+  const bool goes_on = alike && disturbances == Disturbances::die_out && thicker_than(missed) &&
                        growth->size < settled * (steady.thickest - still_);
   const bool chatters =
       disturbances == Disturbances::grow || (thick && (disturbances != Disturbances::die_out || goes_on));

@@ -86,6 +86,36 @@ TEST(MillingFiles, ThickChipsThatTeethForceAreNoChatter) {
   EXPECT_EQ(deep.metric("milling.chatter"), 1.0) << deep.reason;
 }
 
+// Strongly uneven teeth near a resonance: chips twice as thick, 2% below the limit of Floquet.
+TEST(MillingFiles, TwiceAsThickChipsOfUnevenTeethAreForced) {
+  const FinishedRun cut = finish(input::read_case_text(R"toml(
+analysis = { type = "milling" }
+[cutter]
+diameter = "16 mm"
+teeth = 3
+pitch = "112 118 130 deg"
+helix = "28 deg"
+[cutting.forces]
+law = "linear"
+Ktc = "850 MPa"
+Krc = "260 MPa"
+[milling]
+speed = "5800 rpm"
+feed = "8 um"
+axial_depth = "3.002 mm"
+radial_depth = "5 mm"
+side = "up"
+length = "1 mm"
+[modes]
+x = { frequency = "740 Hz", damping = 0.027, stiffness = "12 N/um", direction = "1 0 0" }
+y = { frequency = "905 Hz", damping = 0.022, stiffness = "9 N/um", direction = "0.1 1 0" }
+)toml",
+                                                       "case.toml", {}));
+  EXPECT_GT(cut.metric("milling.chip_growth"), 2.0);
+  EXPECT_LT(cut.metric("milling.growth"), 0.95);
+  EXPECT_EQ(cut.metric("milling.chatter"), 0.0) << cut.status.reason;
+}
+
 // Multipliers of 1.40, 1.42 and 0.95: deep in the unstable, teeth miss the cut, and the vibration comes back
 // with each tooth, or collapses and grows anew, so that differences from tooth to tooth shrink over the whole
 // of it.
