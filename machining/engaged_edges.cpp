@@ -237,7 +237,7 @@ template<class PerSlice> DirectionalFactors EngagedEdges::mean_of_turn(const Per
 DirectionalFactors EngagedEdges::factors_at(const EdgeSlice& slice, std::size_t tooth, double phi) const {
   const double h = slice.sine * steady_thickness(cut_, tooth, phi), onset = slice.sine * cut_.onset;
   if (!(h > 0.0) && !cut_.linear()) return DirectionalFactors::Zero();
-  if (h < onset)
+  if (onset > 0.0 && h < onset)
     return slice.answer(phi,
                         slice.law.at({.thickness = onset, .speed = spindle_ * slice.radius}).force / onset);
   const LawPoint point = slice.law.at({.thickness = h, .speed = spindle_ * slice.radius});
