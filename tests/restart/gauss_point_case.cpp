@@ -1,5 +1,6 @@
 // The text of the small case of functions at Gauss points, into which a punch goes by springs.
 #include "tests/restart/runs.hpp"
+#include "tests/shared_cases.hpp"
 #include "tests/steel.hpp"
 
 namespace cnem::app {

@@ -123,15 +123,15 @@ TEST_F(SpaceReport, of_a_quarter_of_a_round_blank) {
   ASSERT_EQ(call({"run", (temporary.path() / "case.toml").string(), "--output", results(), "--threads", "1"}),
             0)
       << message;
-  const Path folder = results();
-  ASSERT_NO_FATAL_FAILURE(expect_cut(folder));
-  ASSERT_NO_FATAL_FAILURE(expect_pictures(folder));
-  for (const cnem::results::FieldFiles& frame : cnem::results::read_field_series(folder)) {
+  const Path written = results();
+  ASSERT_NO_FATAL_FAILURE(expect_cut(written));
+  ASSERT_NO_FATAL_FAILURE(expect_pictures(written));
+  for (const cnem::results::FieldFiles& frame : cnem::results::read_field_series(written)) {
     ASSERT_EQ(frame.parts.size(), 2U);
     EXPECT_EQ(frame.parts[0].name, "surface");
     EXPECT_EQ(frame.parts[1].name, "polyhedra");
     for (const cnem::results::PartFile& part : frame.parts)
-      EXPECT_TRUE(std::filesystem::exists(folder / part.file));
+      EXPECT_TRUE(std::filesystem::exists(written / part.file));
   }
 }
 
