@@ -1,6 +1,7 @@
 // Reads milling cases.
 #include "input/case_machining.hpp"
 #include "core/index.hpp"
+#include "core/rpm.hpp"
 #include "input/case_parts.hpp"
 #include "input/case_structure.hpp"
 #include "input/constants.hpp"
@@ -12,7 +13,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <functional>
-#include <numbers>
 #include <numeric>
 #include <tuple>
 
@@ -289,12 +289,10 @@ void read_machining(Setting& root, Case& result, Diagnostics& diagnostics) {
       }))
     diagnostics.add(Mistake::range, range.find("places")->where, range.find("places")->path,
                     "found places at none of which a mode moves, expected others: nothing can chatter there");
-  if (const Setting& to = *range.find("speed_to"); read.stability.speed_to <= read.stability.speed_from) {
-    constexpr double rpm = std::numbers::pi / 30.0; // rad/s
+  if (const Setting& to = *range.find("speed_to"); read.stability.speed_to <= read.stability.speed_from)
     diagnostics.add(Mistake::range, to.where, to.path,
                     fmt::format("found {:g} rpm, expected more than stability.speed_from = {:g} rpm",
                                 read.stability.speed_to / rpm, read.stability.speed_from / rpm));
-  }
 }
 
 } // namespace cnem::input

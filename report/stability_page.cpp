@@ -1,6 +1,7 @@
 #include "report/stability_page.hpp"
 
 #include "core/index.hpp"
+#include "core/rpm.hpp"
 #include "results/history_writer.hpp"
 #include "results/output_folder.hpp"
 #include "results/si_format.hpp"
@@ -9,13 +10,12 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
-#include <numbers>
 
 namespace cnem::report {
 
 namespace {
 
-constexpr double rpm = std::numbers::pi / 30.0, infinite = std::numeric_limits<double>::infinity();
+constexpr double infinite = std::numeric_limits<double>::infinity();
 
 } // namespace
 

@@ -2,18 +2,16 @@
 // What milling analyses share as runs: no body, no steps to go back to.
 #include "app/run.hpp"
 #include "app/stopwatch.hpp"
+#include "core/rpm.hpp"
 #include "input/case.hpp"
 #include "input/case_machining.hpp"
 #include "machining/mode.hpp"
 
-#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace cnem::app {
-
-inline constexpr double rpm = std::numbers::pi / 30.0; ///< rad/s
 
 class MachiningSession : public Session {
 public:

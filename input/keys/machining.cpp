@@ -336,7 +336,7 @@ void add_stability(Keys& k) {
   k.add("stability.edge_forces", boolean,
         "Whether edge forces (`Kte`, `Kre`: those of a chip without thickness) count. They push the tool off "
         "and change nothing, but where an edge comes to the cut, or leaves it, with a chip of no thickness: "
-        "where that happens moves with the vibration. Other programs leave them out.")
+        "where that happens moves with the vibration.")
       .fallback("false");
   k.add("stability.depths", integer, "").in({.low = 2, .high = 2000}).fallback("100");
 }

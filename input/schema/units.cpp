@@ -1,5 +1,6 @@
 #include "input/schema/units.hpp"
 #include "core/index.hpp"
+#include "core/rpm.hpp"
 
 #include "input/schema/nearest.hpp"
 
@@ -41,7 +42,7 @@ const std::map<std::string, BaseUnit, std::less<>>& base_units() {
       {"rad", {0, 1.0, d::angle}},
       {"deg", {0, std::numbers::pi / 180.0, d::angle, false}},
       {"rev", {0, 2.0 * std::numbers::pi, d::angle, false}},
-      {"rpm", {0, std::numbers::pi / 30.0, d::angular_velocity, false}},
+      {"rpm", {0, rpm, d::angular_velocity, false}},
       {"%", {-2, 1.0, d::none, false}},
   };
   return units;

@@ -45,19 +45,26 @@ const PartZone* zone_at(const PartShape& shape, const Vec3& point) {
   return there;
 }
 
-} // namespace
-
-std::size_t cells_of(const PartShape& shape) {
-  const std::array line{lines(shape, 0), lines(shape, 1), lines(shape, 2)};
-  std::size_t cells = 0;
+/// Calls body(place, low, high, zone) for cells that are there: their numbers along the axes, corners, m, and
+/// the zone that counts, or null.
+template<class Body>
+void for_each_cell(const PartShape& shape, const std::array<std::vector<double>, 3>& line, const Body& body) {
   for (std::size_t i = 0; i + 1 < line[0].size(); ++i)
     for (std::size_t j = 0; j + 1 < line[1].size(); ++j)
       for (std::size_t k = 0; k + 1 < line[2].size(); ++k) {
         const Vec3 low(line[0][i], line[1][j], line[2][k]),
             high(line[0][i + 1], line[1][j + 1], line[2][k + 1]);
         const PartZone* zone = zone_at(shape, 0.5 * (low + high));
-        if (!zone || zone->taken < 1.0) ++cells;
+        if (!zone || zone->taken < 1.0) body(std::array{i, j, k}, low, high, zone);
       }
+}
+
+} // namespace
+
+std::size_t cells_of(const PartShape& shape) {
+  std::size_t cells = 0;
+  for_each_cell(shape, {lines(shape, 0), lines(shape, 1), lines(shape, 2)},
+                [&](const auto&, const Vec3&, const Vec3&, const PartZone*) { ++cells; });
   return cells;
 }
 
@@ -125,17 +132,11 @@ void Part::divide() {
     const double begin = line_[axis][cell];
     return i % form.order == 0 ? begin : 0.5 * (begin + line_[axis][cell + 1]);
   };
-  for (std::size_t i = 0; i + 1 < line_[0].size(); ++i)
-    for (std::size_t j = 0; j + 1 < line_[1].size(); ++j)
-      for (std::size_t k = 0; k + 1 < line_[2].size(); ++k) {
-        const Vec3 low(line_[0][i], line_[1][j], line_[2][k]),
-            high(line_[0][i + 1], line_[1][j + 1], line_[2][k + 1]);
-        const PartZone* zone = zone_at(shape_, 0.5 * (low + high));
-        const std::size_t material = zone ? zone->material : 0;
-        const double taken = zone ? zone->taken : 0.0;
-        if (taken >= 1.0) continue;
+  for_each_cell(
+      shape_, line_, [&](const auto& number_along, const Vec3& low, const Vec3& high, const PartZone* zone) {
+        const auto [i, j, k] = number_along;
         Cell cell{.low = low, .size = high - low, .node = {}};
-        cell.matrices = matrices_of(cell.size, height(low.z()), material);
+        cell.matrices = matrices_of(cell.size, height(low.z()), zone ? zone->material : 0);
         for (const auto& [a, b, c] : form.lattice_node) {
           const auto at = [&](std::size_t line, int step) {
             return static_cast<std::int64_t>(line) * form.order + step;
@@ -149,8 +150,8 @@ void Part::divide() {
           cell.node.push_back(number);
         }
         cell_.push_back(std::move(cell));
-        presence_.push_back(1.0 - taken);
-      }
+        presence_.push_back(1.0 - (zone ? zone->taken : 0.0));
+      });
   if (cell_.empty()) throw InputError("zones take the whole part, expected that something is left");
 }
 

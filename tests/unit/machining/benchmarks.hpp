@@ -1,5 +1,6 @@
 #pragma once
 // Milling benchmarks that several tests share.
+#include "core/rpm.hpp"
 #include "machining/milling_cut.hpp"
 #include "machining/mode.hpp"
 
@@ -7,8 +8,6 @@
 #include <vector>
 
 namespace cnem::machining {
-
-inline constexpr double rpm = std::numbers::pi / 30.0; ///< rad/s
 
 inline MillingCut milling_cut(std::size_t teeth, double Ktc, double Krc, Engagement::Side side,
                               double immersion) {

@@ -165,10 +165,12 @@ TEST_P(Marched, GrowthIsTheSpectralRadius) {
 
 INSTANTIATE_TEST_SUITE_P(Of, Marched, testing::Range(0, 6));
 
-// Down-milling without forces but those of the edge: where it leaves the cut it does so earlier by Δy/f, an
-// impulse −Kre b Δy/(f Ω) in y once a tooth. Between, the mode is free.
-TEST(Floquet, AnEdgeThatComesAndGoesIsAnImpulse) {
-  MillingCut cut = milling_cut(2, 0.0, 0.0, down, 0.2);
+// Without forces but those of the edge: in down-milling it leaves the cut earlier by Δy/f, in up-milling it
+// comes as much earlier, an impulse −Kre b Δy/(f Ω) in y once a tooth. Between, the mode is free.
+class EdgeImpulse : public testing::TestWithParam<Engagement::Side> {};
+
+TEST_P(EdgeImpulse, IsThatOfAnEdgeThatComesAndGoes) {
+  MillingCut cut = milling_cut(2, 0.0, 0.0, GetParam(), 0.2);
   LinearLaw law;
   law.Kre = 26.6e3;
   cut.law = CuttingLaw(law);
@@ -194,6 +196,8 @@ TEST(Floquet, AnEdgeThatComesAndGoesIsAnImpulse) {
   }
   EXPECT_TRUE(grows);
 }
+
+INSTANTIATE_TEST_SUITE_P(Of, EdgeImpulse, testing::Values(up, down));
 
 TEST(Chart, IsTheSameWithAnyNumberOfThreads) {
   const auto modes = insperger_modes(2);

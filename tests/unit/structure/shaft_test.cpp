@@ -1,4 +1,5 @@
 #include "core/error.hpp"
+#include "core/rpm.hpp"
 #include "machining/structure/shaft.hpp"
 
 #include <Eigen/LU>
@@ -12,7 +13,7 @@ using namespace cnem::machining;
 
 namespace {
 
-constexpr double pi = std::numbers::pi, rpm = pi / 30.0, rigid = std::numeric_limits<double>::infinity();
+constexpr double pi = std::numbers::pi, rigid = std::numeric_limits<double>::infinity();
 
 ShaftSection rod(double from, double to) {
   return {.from = from,
