@@ -48,12 +48,13 @@ void keep_bodies_apart(const StabilisationLinks<3>& links, adapt::NodeProperties
 
 using Report = adapt::PassReport;
 constexpr std::pair<const char*, int Report::*> counts[] = {
-    {"cuts", &Report::cuts},         {"opened", &Report::opened},
-    {"folded", &Report::folded},     {"outside", &Report::outside},
-    {"removed", &Report::removed},   {"removed_boundary", &Report::removed_boundary},
-    {"inserted", &Report::inserted}, {"inserted_boundary", &Report::inserted_boundary},
-    {"flipped", &Report::flipped},   {"balanced", &Report::balanced},
-    {"undone", &Report::undone},     {"crossings", &Report::crossings}};
+    {"cuts", &Report::cuts},          {"opened", &Report::opened},
+    {"folded", &Report::folded},      {"outside", &Report::outside},
+    {"removed", &Report::removed},    {"removed_boundary", &Report::removed_boundary},
+    {"inserted", &Report::inserted},  {"inserted_boundary", &Report::inserted_boundary},
+    {"flipped", &Report::flipped},    {"straightened", &Report::straightened},
+    {"balanced", &Report::balanced},  {"undone", &Report::undone},
+    {"crossings", &Report::crossings}};
 
 /// Those of the reference, which nodes that have moved by less than its strain have left sound: new ones
 /// would need a boundary that is recovered.

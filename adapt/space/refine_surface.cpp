@@ -32,6 +32,7 @@ public:
       split_long();
       flip_all();
       collapse_short();
+      collapse_tips();
       flip_all();
       if (changes_ == before) break;
     }
@@ -170,6 +171,25 @@ private:
     for (const Candidate& c : list) collapse(c.start, c.end);
   }
 
+  /// Whiskers and rims of films, from their ends: each goes into the nearest of the nodes beside it.
+  void collapse_tips() {
+    for (bool any = true; any;) {
+      any = false;
+      for (const NodeIndex i : IndexRange<NodeIndex>(surface_.nodes())) {
+        if (!surface_.is_tip(i, size_[index_of(i)])) continue;
+        std::vector<Candidate> ways;
+        surface_.around(i, [&](Edge e) { ways.push_back({surface_.length(e), i, surface_.end(e)}); });
+        std::sort(ways.begin(), ways.end());
+        any =
+            std::any_of(ways.begin(), ways.end(),
+                        [&](const Candidate& way) {
+                          return collapse(surface_.between(i, way.end), size_[index_of(i)], Collapse::of_tip);
+                        }) ||
+            any;
+      }
+    }
+  }
+
   bool collapse(NodeIndex gone, NodeIndex stays) {
     if (!surface_.on_surface(gone) || !surface_.on_surface(stays)) return false;
     const Edge e = surface_.between(gone, stays);
@@ -184,14 +204,14 @@ private:
     const std::vector<Edge> all = alike_.edges(e);
     if (!alike_.may_collapse(all, size(e))) return false;
     bool done = false;
-    for (const Edge k : all) done |= collapse(k);
+    for (const Edge k : all) done |= collapse(k, size(k), Collapse::in_shape);
     return done;
   }
 
-  bool collapse(Edge e) {
+  bool collapse(Edge e, double spacing, Collapse kind) {
     const NodeIndex gone = surface_.start(e), stays = surface_.end(e), c = surface_.apex(e),
                     d = surface_.apex(surface_.across(e));
-    const SurfaceChange change = surface_.collapse(e, size(e));
+    const SurfaceChange change = surface_.collapse(e, spacing, kind);
     if (!change.done()) return false;
     owe(debt_[index_of(gone)] - change.volume, {stays, c, d});
     debt_[index_of(gone)] = 0.0;

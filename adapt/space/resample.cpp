@@ -1,5 +1,6 @@
 #include "adapt/space/resample.hpp"
 
+#include "adapt/space/seams.hpp"
 #include "adapt/space/unfold.hpp"
 #include "core/error.hpp"
 #include "core/geometry/facets.hpp"
@@ -366,6 +367,7 @@ Resampling<3> resample(const Cloud<3>& present, NodeProperties properties, const
     unfold(cloud, properties.held, properties.size, PeriodImages(cloud, rules.periods), rules.surface,
            report);
   }
+  straighten_seams(cloud, rules.periods, properties.held, properties.size, report);
   // Where facets are lost the other side of the body is nearer than they are long: they become shorter there,
   // once. More would not end beside crowded creases.
   constexpr int times = 2;

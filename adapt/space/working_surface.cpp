@@ -211,13 +211,15 @@ bool WorkingSurface::may_become(const Corners& before, const Corners& after) con
 }
 
 /// What does not depend on where the nodes are, but for creases.
-Refusal WorkingSurface::may_collapse(Edge e, double spacing) const {
+Refusal WorkingSurface::may_collapse(Edge e, double spacing, Collapse kind) const {
   if (!alive(e)) return Refusal::absent;
   const NodeIndex gone = start(e), stays = end(e);
   if (held(gone)) return Refusal::held;
   constexpr double one = 0.1; // h: folds so near to each other are one
   const bool folds_meet = length(e) < one * spacing && of_folds(gone);
-  if (corner(gone)) {
+  if (kind == Collapse::of_tip) {
+    if (!is_tip(gone, spacing)) return Refusal::corner;
+  } else if (corner(gone)) {
     if (!folds_meet || !corner(stays)) return Refusal::corner;
   } else if (on_crease(gone) && !crease(e) && !(folds_meet && on_crease(stays))) {
     return Refusal::crease;
@@ -230,12 +232,49 @@ Refusal WorkingSurface::may_collapse(Edge e, double spacing) const {
   return Refusal::none;
 }
 
-SurfaceChange WorkingSurface::try_collapse(Edge e, double spacing, Vec3& to) const {
-  if (const Refusal refusal = may_collapse(e, spacing); refusal != Refusal::none) return {refusal};
+/// Volume (m³) that a body loses as a node goes into one beside it.
+double WorkingSurface::volume_towards(NodeIndex gone, NodeIndex stays) const {
+  double volume = 0.0;
+  const Vec3& base = at(stays);
+  around(gone,
+         [&](Edge k) { volume += (at(end(k)) - base).cross(at(apex(k)) - base).dot(at(gone) - base) / 6.0; });
+  return volume;
+}
+
+bool WorkingSurface::is_tip(NodeIndex i, double spacing) const {
+  if (!on_surface(i) || held(i) || still(i) || !of_folds(i) || !on_crease(i)) return false;
+  const double most = rules_.tip * spacing * spacing * spacing;
+  bool little = true;
+  around(i, [&](Edge e) { little = little && std::abs(volume_towards(i, end(e))) < most; });
+  return little;
+}
+
+/// Whether what is left where a tip goes looks the way the tip did as a whole.
+bool WorkingSurface::may_cap(Edge e) const {
+  const NodeIndex gone = start(e), stays = end(e);
+  Vec3 sum = Vec3::Zero();
+  around(gone, [&](Edge k) { sum += normal(k); });
+  bool all = true;
+  around(gone, [&](Edge k) {
+    if (k / 3 == e / 3 || k / 3 == across(e) / 3) return;
+    Corners after = corners(index_of(k / 3));
+    after[index_of(k % 3)] = at(stays);
+    all = all && area_normal<3>(after).dot(sum) > 0.0;
+  });
+  return all;
+}
+
+SurfaceChange WorkingSurface::try_collapse(Edge e, double spacing, Vec3& to, Collapse kind) const {
+  if (const Refusal refusal = may_collapse(e, spacing, kind); refusal != Refusal::none) return {refusal};
   const Edge back = across(e);
   const NodeIndex gone = start(e), stays = end(e);
   const std::size_t f = index_of(e / 3), g = index_of(back / 3);
   const Vec3 from = at(stays);
+  if (kind == Collapse::of_tip) {
+    if (!may_cap(e)) return {Refusal::normals};
+    to = from;
+    return {Refusal::none, -volume_towards(gone, stays)};
+  }
   // the volume is linear in the place of the node that stays: V(x) = gradient · (x − from) − lost
   Vec3 gradient = Vec3::Zero();
   double lost = 0.0;
@@ -280,9 +319,9 @@ SurfaceChange WorkingSurface::try_collapse(Edge e, double spacing, Vec3& to) con
   return {Refusal::none, to == from ? -lost : gradient.dot(to - from) - lost};
 }
 
-SurfaceChange WorkingSurface::collapse(Edge e, double spacing) {
+SurfaceChange WorkingSurface::collapse(Edge e, double spacing, Collapse kind) {
   Vec3 to;
-  const SurfaceChange change = try_collapse(e, spacing, to);
+  const SurfaceChange change = try_collapse(e, spacing, to, kind);
   if (!change.done()) return change;
   const Edge back = across(e);
   const NodeIndex gone = start(e), stays = end(e);

@@ -16,6 +16,7 @@ struct SurfaceRules {
   double turn = 30.0;   ///< how far normals of facets may turn
   double flat = 14.0;   ///< facets that turn by less may exchange their diagonal
   double volume = 0.02; ///< how much volume a change may add or take (in h³) before it is given back
+  double tip = 0.002;   ///< what is thinner holds less than that (in h³) whichever way its node goes
   double shape = 0.05;  ///< least height of a facet over its longest side, unless it was less before
   /// Pieces of which each is repeated by another: nodes on them come and go, but none moves, and what a
   /// change inside of one does to the volume is undone by its image.
@@ -40,6 +41,12 @@ struct SurfaceChange {
   NodeIndex made = NodeIndex::none; ///< of a split
 
   bool done() const { return refusal == Refusal::none; }
+};
+
+/// What may go.
+enum class Collapse {
+  in_shape, ///< creases, corners and normals stay
+  of_tip,   ///< all of a whisker or a rim that holds next to nothing
 };
 
 /// Half-edges in triples: edge 3f + k leaves node k of facet f (voronoi/space/surface.hpp). It is closed and
@@ -103,9 +110,13 @@ public:
   /// (Lindstrom and Turk 1998), unless it cannot. Corners stay and creases are not left, but where folds of
   /// one piece have met within a tenth of h: a corner goes into a corner, a node of one crease into one of
   /// another. spacing: h, m.
-  SurfaceChange collapse(Edge e, double spacing);
+  SurfaceChange collapse(Edge e, double spacing, Collapse kind = Collapse::in_shape);
   /// What collapse() would do, and where the node that stays would be.
-  SurfaceChange try_collapse(Edge e, double spacing, Vec3& to) const;
+  SurfaceChange try_collapse(Edge e, double spacing, Vec3& to, Collapse kind = Collapse::in_shape) const;
+  /// Whether a node is one of a crease or a corner of one piece that holds less than rules.tip: such a tip
+  /// is a whisker that has been drawn out, or the rim of a film. It goes into a node beside it by
+  /// Collapse::of_tip, which takes what there is.
+  bool is_tip(NodeIndex i, double spacing) const;
   /// The edge becomes the other diagonal of its two facets.
   SurfaceChange flip(Edge e, double spacing);
   /// What flip() would do.
@@ -131,7 +142,9 @@ private:
   bool may_become(const Corners& before, const Corners& after) const;
   void keep_on_faces(NodeIndex i, Vec3& way) const;
   bool of_folds(NodeIndex i) const; ///< one piece is all round it
-  Refusal may_collapse(Edge e, double spacing) const;
+  Refusal may_collapse(Edge e, double spacing, Collapse kind) const;
+  double volume_towards(NodeIndex gone, NodeIndex stays) const;
+  bool may_cap(Edge e) const;
   Edge add_facet(const Facet<3>& facet);
 
   SurfaceRules rules_;

@@ -61,5 +61,78 @@ TEST(RefineSurface, spacing_is_wider_where_metal_runs_out) {
   }
 }
 
+/// A cube with a needle of three sides on a facet of its top: ends of nodes 0.4 h and `thin` h across, `high`
+/// h.
+Cloud<3> with_needle(int cells, double thin, double high) {
+  Cloud<3> cloud = testing::unrecovered({.shape = SpaceShape::cube, .cells = cells});
+  const double h = 1.0 / cells;
+  IndexedVector<CloudFacetIndex, Facet<3>> facets;
+  bool done = false;
+  for (const Facet<3>& facet : cloud.facets) {
+    const auto& n = facet.node;
+    const Vec3 middle = (cloud.position[n[0]] + cloud.position[n[1]] + cloud.position[n[2]]) / 3.0;
+    if (done || middle.z() < 1.0 - 1e-9 || (middle - Vec3(0.5, 0.5, 1.0)).norm() > h) {
+      facets.push_back(facet);
+      continue;
+    }
+    done = true;
+    std::array<NodeIndex, 3> foot{};
+    const Vec3 along = (cloud.position[n[1]] - cloud.position[n[0]]).normalized(),
+               across = Vec3::UnitZ().cross(along);
+    const std::array<Vec3, 3> at{middle - 0.2 * h * along, middle + 0.2 * h * along,
+                                 middle + thin * h * across};
+    for (std::size_t k = 0; k < 3; ++k) {
+      foot[k] = cloud.position.next();
+      cloud.position.push_back(at[k]);
+    }
+    const NodeIndex tip = cloud.position.next();
+    cloud.position.push_back(middle + Vec3(high * h, 0.0, high * h));
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t m = (k + 1) % 3;
+      facets.push_back({{n[k], n[m], foot[m]}, facet.piece});
+      facets.push_back({{n[k], foot[m], foot[k]}, facet.piece});
+      facets.push_back({{foot[k], foot[m], tip}, facet.piece});
+    }
+  }
+  cloud.facets = facets;
+  return cloud;
+}
+
+// Metal that was drawn out into a needle bears nothing and holds the step: its end goes.
+TEST(RefineSurface, needles_lose_their_end) {
+  constexpr int cells = 6;
+  constexpr double h = 1.0 / cells;
+  for (const double thin : {0.006, 0.3}) {
+    Cloud<3> cloud = with_needle(cells, thin, 2.0);
+    const double volume = enclosed_measure(cloud), needle = volume - 1.0;
+    ASSERT_NEAR(needle, 0.5 * 0.4 * thin * 2.0 / 3.0 * h * h * h, 1e-12);
+    WorkingSurface surface = loose_surface_of(cloud);
+    const NodeIndex tip = as<NodeIndex>(cloud.position.size() - 1);
+    EXPECT_EQ(surface.is_tip(tip, h), thin < 0.1);
+    Field size(cloud.position.size(), h);
+    PassReport report;
+    const RefinedSurface refined = refine_surface(surface, size, {}, report, PeriodImages(cloud, {}));
+    EXPECT_EQ(exists(refined.into[tip]), thin < 0.1) << thin;
+    cloud.position = surface.position();
+    cloud.facets = surface.facets();
+    const double lost = volume - enclosed_measure(cloud); // a plane face takes nothing
+    EXPECT_GT(lost, -1e-14);
+    EXPECT_LT(lost, thin < 0.1 ? 1.001 * needle : 1e-14);
+  }
+}
+
+// Corners and edges of a body of one piece, sheared or not, are no tips, and straight edges lose no more
+// nodes than they are short.
+TEST(RefineSurface, edges_and_corners_are_no_tips) {
+  Cloud<3> cloud = testing::unrecovered({.shape = SpaceShape::cube, .cells = 6});
+  for (Facet<3>& facet : cloud.facets) facet.piece = cloud.facets[CloudFacetIndex{}].piece;
+  for (const double shear : {0.0, 4.0}) {
+    Cloud<3> leaning = cloud;
+    for (Vec3& x : leaning.position) x.x() += shear * x.y();
+    const WorkingSurface surface = loose_surface_of(leaning);
+    for (const NodeIndex i : cloud.position.indices()) { EXPECT_FALSE(surface.is_tip(i, 1.0 / 6.0)); }
+  }
+}
+
 } // namespace
 } // namespace cnem::adapt
