@@ -47,7 +47,10 @@ public:
     large_ = mean + radius, small_ = det * det / large_;
     const double r = (large_ - small_) / (large_ + small_), r2 = r * r;
     const double series = 1.0 + r2 * (1.0 / 3.0 + r2 * (1.0 / 5.0 + r2 * (1.0 / 7.0 + r2 / 9.0)));
-    mixed_ = 2.0 / (large_ + small_) * (r < 1e-2 ? series : std::atanh(r) / r);
+    if (r < 0.999)
+      mixed_ = 2.0 / (large_ + small_) * (r < 1e-2 ? series : std::atanh(r) / r);
+    else // of debris that has been sheared by 10⁸ r is 1
+      mixed_ = std::log(large_ / small_) / (large_ - small_);
     value_ = along({0.5 * std::log(large_), 0.5 * std::log(small_), 0.0}, c_, -s_);
   }
 
@@ -125,6 +128,7 @@ public:
     if (!(return_ ? flow(p, e, result) : bear(p, e, result))) return false;
     const auto& s = result.stress;
     const double zz = result.out;
+    if (!(std::abs(s[0]) + std::abs(s[1]) + std::abs(s[2]) + std::abs(zz) < 1e300)) return false;
     const Symmetric2 S =
         strain.second_piola(along({s[0], s[1], s[2]}, cosine_, -sine_)); // in the axes of the model
     const Matrix2 first = total * whole(S), piola = first * transposed(earlier),

@@ -171,7 +171,8 @@ private:
     for (const Candidate& c : list) collapse(c.start, c.end);
   }
 
-  /// Whiskers and rims of films, from their ends: each goes into the nearest of the nodes beside it.
+  /// Ends of whiskers and corners of films, one after the other: each goes into the nearest of the nodes
+  /// beside it.
   void collapse_tips() {
     for (bool any = true; any;) {
       any = false;

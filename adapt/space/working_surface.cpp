@@ -242,7 +242,7 @@ double WorkingSurface::volume_towards(NodeIndex gone, NodeIndex stays) const {
 }
 
 bool WorkingSurface::is_tip(NodeIndex i, double spacing) const {
-  if (!on_surface(i) || held(i) || still(i) || !of_folds(i) || !on_crease(i)) return false;
+  if (!on_surface(i) || held(i) || still(i) || !of_folds(i) || !corner(i)) return false;
   const double most = rules_.tip * spacing * spacing * spacing;
   bool little = true;
   around(i, [&](Edge e) { little = little && std::abs(volume_towards(i, end(e))) < most; });

@@ -46,7 +46,7 @@ struct SurfaceChange {
 /// What may go.
 enum class Collapse {
   in_shape, ///< creases, corners and normals stay
-  of_tip,   ///< all of a whisker or a rim that holds next to nothing
+  of_tip,   ///< the end of a whisker or the corner of a film, which hold next to nothing
 };
 
 /// Half-edges in triples: edge 3f + k leaves node k of facet f (voronoi/space/surface.hpp). It is closed and
@@ -113,9 +113,8 @@ public:
   SurfaceChange collapse(Edge e, double spacing, Collapse kind = Collapse::in_shape);
   /// What collapse() would do, and where the node that stays would be.
   SurfaceChange try_collapse(Edge e, double spacing, Vec3& to, Collapse kind = Collapse::in_shape) const;
-  /// Whether a node is one of a crease or a corner of one piece that holds less than rules.tip: such a tip
-  /// is a whisker that has been drawn out, or the rim of a film. It goes into a node beside it by
-  /// Collapse::of_tip, which takes what there is.
+  /// Whether a node is a corner of one piece that holds less than rules.tip whichever way it would go: the
+  /// end of a whisker that has been drawn out, or a corner of a film. Collapse::of_tip takes it away.
   bool is_tip(NodeIndex i, double spacing) const;
   /// The edge becomes the other diagonal of its two facets.
   SurfaceChange flip(Edge e, double spacing);
