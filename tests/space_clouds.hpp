@@ -319,4 +319,25 @@ inline voronoi::RecoveredBoundary recovered(const SpaceCloud& how) {
   return voronoi::recover_boundary(unrecovered(how));
 }
 
+/// Two cubes with their nodes in turns, the second on the first and `deep` into it, turned about z.
+inline Cloud<3> pressed_cubes(int cells, double deep, bool with_bodies) {
+  const Cloud<3> one = unrecovered({.shape = SpaceShape::cube, .cells = cells});
+  const NodeIndex nodes = one.position.next();
+  Cloud<3> both;
+  both.piece_names = one.piece_names;
+  const double c = std::cos(0.3), s = std::sin(0.3);
+  for (const Vec3& x : one.position) {
+    both.position.push_back(x);
+    both.position.push_back({c * x.x() - s * x.y(), s * x.x() + c * x.y(), x.z() + 1.0 - deep});
+  }
+  for (std::size_t k = 0; k < 2; ++k)
+    for (Facet<3> facet : one.facets) {
+      for (NodeIndex& i : facet.node) i = as<NodeIndex>(2 * index_of(i) + k);
+      both.facets.push_back(facet);
+    }
+  if (with_bodies)
+    for (std::size_t i = 0; i < 2 * index_of(nodes); ++i) both.body.push_back(as<std::int32_t>(i % 2));
+  return both;
+}
+
 } // namespace cnem::testing

@@ -3,6 +3,7 @@
 #include "adapt/space/resample.hpp"
 #include "core/geometry/facets.hpp"
 #include "core/machine/parallel.hpp"
+#include "voronoi/space/bodies.hpp"
 #include "voronoi/space/winding.hpp"
 
 #include <Eigen/Geometry>
@@ -84,12 +85,16 @@ std::vector<Removal> crowded(const WorkingBody& body, const std::vector<Removal>
   const IndexedVector<NodeIndex, char> boundary = on_boundary(body);
   IndexedVector<NodeIndex, NodeIndex> near(body.size(), NodeIndex::none);
   for (const Removal& removal : list) near[removal.gone] = removal.near;
-  const voronoi::Winding winding(body.cloud());
   IndexedVector<NodeIndex, char> outside(body.size(), 0);
-  for_each_block(body.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      if (!boundary[i] && !exists(near[i])) outside[i] = winding(body.cloud().position[i]) != 1;
-  });
+  for (const voronoi::SingleBody& single : voronoi::single_bodies(body.cloud())) {
+    const voronoi::Winding winding(single.cloud);
+    for_each_block(single.node.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        const NodeIndex i = single.node[as<NodeIndex>(k)];
+        if (!boundary[i] && !exists(near[i])) outside[i] = winding(body.at(i)) != 1;
+      }
+    });
+  }
   for (const NodeIndex i : body.nodes())
     if (outside[i] && !body.held(i)) {
       near[i] = nearest_of_boundary(body, i);
@@ -195,7 +200,8 @@ bool fill(WorkingBody& body, SpaceStructure& structure, const SpaceRules& rules,
   for (const auto& facet : body.cloud().facets) {
     const Guarded guarded(body, facet, limits.clear_facet);
     places.near(guarded.centre, guarded.reach(), [&](NodeIndex g, double) {
-      if (guarded.too_near(place[index_of(g)])) barred[g] = 1;
+      if (body.cloud().one_body(facet.node[0], list[index_of(g)].a) && guarded.too_near(place[index_of(g)]))
+        barred[g] = 1;
     });
   }
   const auto position = body.cloud().position; // a copy: insertions move the others in memory
@@ -206,7 +212,7 @@ bool fill(WorkingBody& body, SpaceStructure& structure, const SpaceRules& rules,
     if (barred[g]) continue;
     const double clear = limits.clear_node * body.size_between(gap.a, gap.b);
     bool free = true;
-    nodes.near(gap.x, clear, [&](NodeIndex, double) { free = false; });
+    nodes.near(gap.x, clear, [&](NodeIndex k, double) { free = free && !body.cloud().one_body(k, gap.a); });
     if (!free) continue;
     body.insert_between(gap.a, gap.b, gap.x);
     // other gaps must not come too near

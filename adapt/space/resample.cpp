@@ -7,6 +7,7 @@
 #include "core/geometry/mates.hpp"
 #include "core/geometry/place_text.hpp"
 #include "core/index.hpp"
+#include "voronoi/space/bodies.hpp"
 #include "voronoi/space/crossings.hpp"
 #include "voronoi/space/recovery.hpp"
 #include "voronoi/space/surface_flips.hpp"
@@ -106,11 +107,13 @@ struct NotRecovered {
 /// Throws, for an error of the triangulation, what it is about; the error itself where no facet is lost.
 [[noreturn]] void tell_places(const Cloud<3>& cloud, const GeometryError& error) {
   constexpr double flat = 0.2443; // rad, as recover_boundary()
-  Cloud<3> flipped = cloud;
-  voronoi::flip_surface(flipped, flat);
   NotRecovered failure{{}, error.what()};
-  for (const CloudFacetIndex f : voronoi::find_walls(flipped, voronoi::delaunay(flipped)).lost)
-    for (const Vec3& x : corners_of<3>(flipped.facets[f], flipped.position)) failure.places.push_back(x);
+  for (voronoi::SingleBody& body : voronoi::single_bodies(cloud)) {
+    Cloud<3>& flipped = body.cloud;
+    voronoi::flip_surface(flipped, flat);
+    for (const CloudFacetIndex f : voronoi::find_walls(flipped, voronoi::delaunay(flipped)).lost)
+      for (const Vec3& x : corners_of<3>(flipped.facets[f], flipped.position)) failure.places.push_back(x);
+  }
   if (failure.places.empty()) throw GeometryError(error);
   throw failure;
 }
@@ -274,6 +277,9 @@ Refined refined(const Cloud<3>& cloud, const NodeProperties& properties, const F
     after.position = result.surface.position();
     after.facets = result.surface.facets();
     after.twins = cloud.twins;
+    after.body = cloud.body;
+    if (!after.body.empty())
+      for (const auto& [a, b] : result.changes.made) after.body.push_back(std::int32_t{after.body[a]});
     const auto pairs =
         sound ? voronoi::crossings(after, result.surface.changed_facets(cloud)) : voronoi::crossings(after);
     if (pairs.empty()) return result;

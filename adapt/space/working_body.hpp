@@ -25,13 +25,13 @@ public:
   /// A node without matter between two others.
   NodeIndex insert_between(NodeIndex a, NodeIndex b, const Vec3& x) {
     append({{a, 0.5}, {b, 0.5}});
-    cloud_.position.push_back(x);
+    add(x, a);
     return as<NodeIndex>(size() - 1);
   }
   /// A node without matter at the place of another, and held if that is.
   NodeIndex double_node(NodeIndex i) {
     append({{i, 1.0}});
-    cloud_.position.push_back(Vec3(at(i)));
+    add(Vec3(at(i)), i);
     const NodeIndex made = as<NodeIndex>(size() - 1);
     hold(made, held(i));
     return made;
@@ -56,6 +56,11 @@ public:
   Resampling<3> finish(const SpaceStructure& structure) const;
 
 private:
+  void add(const Vec3& x, NodeIndex like) {
+    cloud_.position.push_back(x);
+    if (!cloud_.body.empty()) cloud_.body.push_back(std::int32_t{cloud_.body[like]});
+  }
+
   Cloud<3> cloud_;
   bool sound_ = false;
 };

@@ -6,6 +6,7 @@
 #include "clouds/tetrahedral_block.hpp"
 #include "core/error.hpp"
 #include "input/space_domain.hpp"
+#include "voronoi/space/bodies.hpp"
 #include "voronoi/space/recovery.hpp"
 
 #include <algorithm>
@@ -93,6 +94,7 @@ Workpiece<3> make_body(const input::Case& input) {
   clouds::GeneratedSpaceCloud generated =
       clouds::generate_cloud(input::space_domain(input.domain), spacing, input.cloud.nodes_limit, periods);
   voronoi::RecoveredBoundary recovered = voronoi::recover_boundary(generated.cloud);
+  recovered.cloud.body = voronoi::bodies_of(recovered.tetrahedra);
   Workpiece<3> workpiece{std::move(recovered.cloud), input.method.options, std::move(generated.warnings)};
   if (keeps_mesh(input))
     workpiece.options.tetrahedra.assign(recovered.tetrahedra.node.begin(), recovered.tetrahedra.node.end());

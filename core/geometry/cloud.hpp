@@ -40,7 +40,7 @@ template<int dim> struct Cloud {
   IndexedVector<SimplexIndex, std::array<NodeIndex, dim + 1>> simplices{};
   /// [simplex][k] the one across from its node k; none: not known, or a facet. Empty: none is known.
   IndexedVector<SimplexIndex, std::array<SimplexIndex, dim + 1>> across{};
-  /// [node] the body that it is of, in the plane. Bodies share no nodes, and one may lie in another: where
+  /// [node] the body that it is of. Bodies share no nodes, and one may lie in another: where
   /// faces press on each other they overlap by what compliance asks for, which is no business of the matter
   /// on either side. Empty: nothing may overlap.
   IndexedVector<NodeIndex, std::int32_t> body{};

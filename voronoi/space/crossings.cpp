@@ -38,6 +38,7 @@ public:
   explicit Pairs(const Cloud<3>& cloud) : cloud_(cloud), group_(twin_groups(cloud)) {}
 
   bool cross(CloudFacetIndex f, CloudFacetIndex g) const {
+    if (!cloud_.one_body(cloud_.facets[f].node[0], cloud_.facets[g].node[0])) return false;
     // corners that are shared come first
     auto a = cloud_.facets[f].node, b = cloud_.facets[g].node;
     std::size_t shared = 0;

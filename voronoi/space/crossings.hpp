@@ -8,9 +8,9 @@
 namespace cnem::voronoi {
 
 /// Pairs of facets that have points in common besides the corners and edges that they share, by number. Twins
-/// count as one node: the two faces of a closed slit do not cross. A facet without area is paired with
-/// itself. Predicates are exact; which facets come near each other is found as by Zomorodian and Edelsbrunner
-/// (2002): O(F log² F).
+/// count as one node: the two faces of a closed slit do not cross. Nor do those of two bodies (Cloud::body).
+/// A facet without area is paired with itself. Predicates are exact; which facets come near each other is
+/// found as by Zomorodian and Edelsbrunner (2002): O(F log² F).
 std::vector<std::array<CloudFacetIndex, 2>> crossings(const Cloud<3>& cloud);
 
 /// Those of them in which a suspect is, of a surface whose other facets are known not to cross each other.

@@ -4,6 +4,7 @@
 #include "core/geometry/facets.hpp"
 #include "core/index.hpp"
 #include "voronoi/space/adoption.hpp"
+#include "voronoi/space/bodies.hpp"
 #include "voronoi/space/crossings.hpp"
 #include "voronoi/space/facet_flips.hpp"
 #include "voronoi/space/filling.hpp"
@@ -15,6 +16,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <fmt/format.h>
+#include <utility>
 
 namespace cnem::voronoi {
 
@@ -213,10 +215,57 @@ private:
   RecoveredBoundary result_;
 };
 
+/// The recovered bodies of a cloud in one. Facets stand body after body.
+RecoveredBoundary joined(const Cloud<3>& cloud, std::vector<SingleBody> bodies,
+                         std::vector<RecoveredBoundary> recovered) {
+  IndexedVector<NodeIndex, std::pair<std::size_t, NodeIndex>> own(
+      cloud.position.size()); // body, number there
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    for (const NodeIndex k : bodies[b].node.indices()) own[bodies[b].node[k]] = {b, recovered[b].now[k]};
+    bodies[b].node.assign(recovered[b].cloud.position.size(), NodeIndex::none);
+  }
+  RecoveredBoundary all;
+  all.cloud.piece_names = cloud.piece_names;
+  for (const NodeIndex i : cloud.position.indices()) {
+    const auto& [b, now] = own[i];
+    all.now.push_back(exists(now) ? all.cloud.position.next() : NodeIndex::none);
+    if (!exists(now)) continue;
+    bodies[b].node[now] = all.now[i];
+    all.cloud.position.push_back(recovered[b].cloud.position[now]);
+    all.cloud.body.push_back(cloud.body[i]);
+  }
+  std::vector<Tetrahedra> meshes;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    bodies[b].facet.clear();
+    for (Facet<3> facet : recovered[b].cloud.facets) {
+      for (NodeIndex& i : facet.node) i = bodies[b].node[i];
+      bodies[b].facet.push_back(all.cloud.facets.next());
+      all.cloud.facets.push_back(facet);
+    }
+    meshes.push_back(std::move(recovered[b].tetrahedra));
+    const RecoveryCounts& counts = recovered[b].counts;
+    all.counts.lost += counts.lost;
+    all.counts.flipped += counts.flipped;
+    all.counts.held += counts.held;
+    all.counts.removed += counts.removed;
+    all.counts.replaced += counts.replaced;
+    all.flipped = all.flipped || recovered[b].flipped;
+  }
+  for (const auto& [a, b] : cloud.twins) // those of two bodies too
+    if (exists(all.now[a]) && exists(all.now[b])) all.cloud.twins.push_back({all.now[a], all.now[b]});
+  if (!cloud.mates.empty()) all.cloud.mates = facets_behind(all.cloud);
+  all.tetrahedra = joined(all.cloud, bodies, meshes);
+  return all;
+}
+
 } // namespace
 
 RecoveredBoundary recover_boundary(const Cloud<3>& cloud, const RecoveryRules& rules) {
-  return Recovery(cloud, rules).run();
+  if (cloud.body.empty()) return Recovery(cloud, rules).run();
+  std::vector<SingleBody> bodies = single_bodies(cloud);
+  std::vector<RecoveredBoundary> recovered;
+  for (const SingleBody& body : bodies) recovered.push_back(Recovery(body.cloud, rules).run());
+  return joined(cloud, std::move(bodies), std::move(recovered));
 }
 
 } // namespace cnem::voronoi

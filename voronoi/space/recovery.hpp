@@ -36,8 +36,9 @@ struct RecoveredBoundary {
 /// inside becomes the surface, if it is a manifold with the same nodes, where tetrahedra that are flat on a
 /// face count as outside and new facets inherit their piece. Nodes keep their places and their order, creases
 /// between pieces stay but for (5). Flips after which facets cross each other are done on planes alone.
-/// triangulate() of the new cloud gives the tetrahedra. O(N log N).
-/// Throws GeometryError as triangulate(), and where nothing helps, naming a facet that is lost.
+/// triangulate() of the new cloud gives the tetrahedra. Bodies (Cloud::body) are recovered each for itself,
+/// and may overlap: facets stand body after body then. O(N log N). Throws GeometryError as triangulate(), and
+/// where nothing helps, naming a facet that is lost.
 RecoveredBoundary recover_boundary(const Cloud<3>& cloud, const RecoveryRules& rules = {});
 
 } // namespace cnem::voronoi

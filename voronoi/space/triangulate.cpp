@@ -1,5 +1,6 @@
 #include "voronoi/space/triangulate.hpp"
 
+#include "voronoi/space/bodies.hpp"
 #include "voronoi/space/filling.hpp"
 #include "voronoi/space/surface.hpp"
 
@@ -9,9 +10,17 @@ namespace cnem::voronoi {
 
 namespace {
 
-Tetrahedra from_nothing(const Cloud<3>& cloud) {
+Tetrahedra of_one_body(const Cloud<3>& cloud) {
   surface_edges(cloud);
   return filling(cloud, delaunay(cloud)).tetrahedra;
+}
+
+Tetrahedra from_nothing(const Cloud<3>& cloud) {
+  if (cloud.body.empty()) return of_one_body(cloud);
+  const std::vector<SingleBody> bodies = single_bodies(cloud);
+  std::vector<Tetrahedra> meshes;
+  for (const SingleBody& body : bodies) meshes.push_back(of_one_body(body.cloud));
+  return joined(cloud, bodies, meshes);
 }
 
 Tetrahedra brought(const Cloud<3>& cloud) {

@@ -17,6 +17,8 @@ namespace cnem::voronoi {
 /// that are not finite; facets that stay lost, and tetrahedra between two facets that are flat to rounding
 /// (the boundary has to be recovered first).
 ///
+/// Bodies (Cloud::body) are triangulated each for itself, and may overlap.
+///
 /// A cloud that brings its tetrahedra (Cloud::simplices and across) gets these, in a small part of the time;
 /// it is asserted that they are the same.
 Tetrahedra triangulate(const Cloud<3>& cloud);

@@ -39,9 +39,10 @@ struct FollowedBody {
   SpaceRules rules;
 
   explicit FollowedBody(const SpaceCloud& how, scni::CellKind cells = scni::CellKind::median)
-      : spacing(1.0 / how.cells) {
+      : FollowedBody(testing::recovered(how), 1.0 / how.cells, cells) {}
+  FollowedBody(voronoi::RecoveredBoundary recovered, double h, scni::CellKind cells = scni::CellKind::median)
+      : spacing(h) {
     rules.cells = cells;
-    voronoi::RecoveredBoundary recovered = testing::recovered(how);
     cloud = recovered.cloud;
     const SpaceStructure structure = structure_of(cloud, std::move(recovered.tetrahedra), cells);
     Random random(5);
@@ -62,6 +63,7 @@ struct FollowedBody {
     properties.density.assign(mass.size(), 2.0);
     properties.size = size;
     properties.held = held;
+    properties.part.assign(cloud.body.begin(), cloud.body.end());
     return adapt::resample(cloud, std::move(properties), rules, report);
   }
 
@@ -282,6 +284,35 @@ TEST(SpaceResample, takes_folds_out_and_keeps_planes_and_volume) {
     if (x[0].x() == 0.0 && x[1].x() == 0.0 && x[2].x() == 0.0) on_plane += area_normal<3>(x).norm();
   }
   EXPECT_NEAR(on_plane, 1.0, 0.02);
+}
+
+// What two bodies have in common where they press on each other is no fold: nothing is smoothed, nothing goes
+// from one to the other, and each keeps its volume as it is upset.
+TEST(SpaceResample, bodies_that_press_on_each_other_keep_their_volume) {
+  constexpr int cells = 6;
+  FollowedBody body(voronoi::recover_boundary(testing::pressed_cubes(cells, 0.02, true)), 1.0 / cells);
+  const auto of_first = [&] {
+    double mass = 0.0;
+    for (const NodeIndex i : body.cloud.position.indices())
+      if (body.cloud.body[i] == 0) mass += body.mass[index_of(i)];
+    return mass;
+  };
+  const double volume = enclosed_measure(body.cloud);
+  const double mass = of_first();
+  for (int step = 0; step < 8; ++step) {
+    body.deform([](const Vec3& x) {
+      constexpr double press = 0.94;
+      const double wide = 1.0 / std::sqrt(press);
+      return Vec3(wide * x.x(), wide * x.y(), press * x.z());
+    });
+    pass(body);
+    ASSERT_FALSE(body.cloud.body.empty());
+    EXPECT_NEAR(of_first(), mass, 1e-13);
+  }
+  EXPECT_GT(body.total.inserted + body.total.inserted_boundary, 20);
+  EXPECT_EQ(body.total.folded, 0);
+  EXPECT_EQ(body.total.crossings, 0);
+  EXPECT_NEAR(enclosed_measure(body.cloud), volume, 1e-10);
 }
 
 } // namespace
