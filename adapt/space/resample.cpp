@@ -18,6 +18,7 @@
 #include <cassert>
 #include <cmath>
 #include <span>
+#include <utility>
 
 namespace cnem::adapt {
 
@@ -373,16 +374,19 @@ Resampling<3> resample(const Cloud<3>& present, NodeProperties properties, const
     unfold(cloud, properties.held, properties.size, PeriodImages(cloud, rules.periods), rules.surface,
            report);
   }
-  straighten_seams(cloud, rules.periods, properties.held, properties.size, report);
   // Where facets are lost the other side of the body is nearer than they are long: they become shorter there,
   // once. More would not end beside crowded creases.
   constexpr int times = 2;
   constexpr double shorter = 0.7, beside = 1.5;
   Field size = properties.size;
-  for (int n = 1;; ++n) {
+  bool upright = !rules.periods.empty(); // but where the boundary cannot be recovered then
+  for (int n = 1;;) {
     PassReport tried = report;
     try {
-      Resampling<3> change = attempt(cloud, properties, size, rules, pairs.empty(), tried);
+      Cloud<3> straightened = cloud;
+      if (upright) straighten_seams(straightened, rules.periods, properties.held, properties.size, tried);
+      upright = tried.straightened > 0;
+      Resampling<3> change = attempt(straightened, properties, size, rules, pairs.empty(), tried);
       change.old_position = present.position;
       report = tried;
       report.volume_change += enclosed_measure(change.cloud) - enclosed_measure(present);
@@ -390,6 +394,8 @@ Resampling<3> resample(const Cloud<3>& present, NodeProperties properties, const
     } catch (const NotRecovered& failure) {
       if (n == times) throw GeometryError(failure.message);
       ++report.undone;
+      if (std::exchange(upright, false)) continue;
+      ++n;
       for (const NodeIndex i : cloud.position.indices()) {
         double& h = size[index_of(i)];
         const double reach = beside * h;

@@ -75,7 +75,7 @@ private:
     const Vec3 skin = normal_at(i, false) + normal_at(image, false), side = normal_at(i, true);
     if (skin.isZero() || side.isZero()) return; // within the side, or flat
     const Vec3 up = skin.normalized();
-    static const double least = std::cos(40.0 * std::numbers::pi / 180.0);
+    static const double least = std::cos(12.0 * std::numbers::pi / 180.0);
     if (up.dot(side.normalized()) > -least) return;
     constexpr double reach = 1.5, depth = 0.4, at_once = 0.2; // h
     Vec3 over = Vec3::Zero();                                 // what is thin

@@ -9,7 +9,7 @@ namespace cnem::adapt {
 
 /// Pieces of a period are cuts through matter that goes on a period away, wherever they lie. A tool that
 /// drags the skin drags their borders along until the sides lie flat below it, and what is left between them
-/// gets as thin as nothing. Where skin and side stand at less than 40° to each other on one image the border
+/// gets as thin as nothing. Where skin and side stand at less than 12° to each other on one image the border
 /// goes over what is thin, along an edge of the skin, by 0.3 of the wanted spacing at most and by two fifths
 /// of that edge, and nodes within the side beside it go away from the skin until they are 0.4 of the spacing
 /// below it, by 0.2 at once; images go alike, which changes no volume where the skin is plane. What would
