@@ -1,5 +1,7 @@
 // Workpieces in space that are made of outlines or come from a file, of the case reader.
+#include "clouds/space/facet_tree.hpp"
 #include "clouds/space/faceted.hpp"
+#include "core/geometry/box.hpp"
 #include "core/geometry/facets.hpp"
 #include "input/case_parts.hpp"
 #include "input/curve_checks.hpp"
@@ -8,7 +10,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <map>
 #include <optional>
 #include <utility>
@@ -36,6 +40,33 @@ std::pair<std::vector<std::string>, std::size_t> faceted_names(const Cloud<3>& s
   const auto round =
       std::ranges::stable_partition(order, [&](const std::string& n) { return normal[n].second; });
   return {order, static_cast<std::size_t>(round.begin() - order.begin())};
+}
+
+/// Each place is on the surface, and pieces have one name.
+void check_names(const Setting& names, const clouds::Faceted& faceted, const Cloud<3>& surface,
+                 Diagnostics& diagnostics) {
+  Box<3> box{surface.position.front(), surface.position.front()};
+  for (const Vec3& x : surface.position) box.low = box.low.cwiseMin(x), box.high = box.high.cwiseMax(x);
+  const double far = 0.01 * (box.high - box.low).norm(); // round faces lie a little off their triangles
+  const clouds::FacetTree tree(surface);
+  std::map<PieceIndex, std::size_t> named;
+  for (std::size_t k = 0; k < faceted.names.size(); ++k) {
+    const clouds::Faceted::Name& given = faceted.names[k];
+    const Setting &at = *names.members[k].find("at"), &name = *names.members[k].find("name");
+    const auto nearest = tree.nearest(given.at, std::numeric_limits<double>::max());
+    if (std::abs(nearest.distance) > far)
+      diagnostics.add(
+          Mistake::geometry, at.where, at.path,
+          fmt::format("found {}, expected a place on the surface: its nearest point, {}, is {:.3g} "
+                      "m away",
+                      show(given.at), show(nearest.point), std::abs(nearest.distance)));
+    const auto [first, fresh] = named.try_emplace(surface.facets[CloudFacetIndex{nearest.facet}].piece, k);
+    if (const std::string& other = faceted.names[first->second].name; !fresh && other != given.name)
+      diagnostics.add(Mistake::conflict, name.where, name.path,
+                      fmt::format("found \"{}\" for the piece that {} calls \"{}\", expected one name for a "
+                                  "piece",
+                                  given.name, names.members[first->second].path, other));
+  }
 }
 
 } // namespace
@@ -75,6 +106,7 @@ void read_faceted(Setting& table, Case& result, Diagnostics& diagnostics) {
     for (auto& triangle : faceted.soup.triangles)
       for (Vec3& x : triangle.corner) x += shift;
     const Cloud<3> surface = clouds::divided_surface(faceted);
+    if (const Setting* names = table.find("names")) check_names(*names, faceted, surface, diagnostics);
     std::tie(result.domain.faceted_pieces, result.domain.plane_pieces) = faceted_names(surface);
     result.domain.faceted = std::move(faceted);
   } catch (const GeometryError& error) {

@@ -3,6 +3,7 @@
 
 #include "app/places.hpp"
 #include "app/problem/bodies.hpp"
+#include "app/problem/tool_overlap.hpp"
 #include "app/problem/tool_sections.hpp"
 #include "app/problem/tool_solid.hpp"
 #include "app/problem/workpiece.hpp"
@@ -205,14 +206,14 @@ contact::Tool<dim> make_tool(const input::Case& input, const input::Tool& spec, 
   return tool;
 }
 
-/// The workpiece has no place where a tool is; the reader has seen to outlines.
+/// The workpiece has no place where a tool is; the reader has seen to outlines. Overlaps of less than half a
+/// spacing are left to contact.
 void check_overlap(const input::Case& input, const contact::Tool<3>& tool, const Cloud<3>& cloud) {
-  for (const Vec3& x : cloud.position)
-    if (const double distance = tool.shape->closest(x).distance; distance < -0.5 * input.cloud.spacing)
-      throw input.error("tools." + tool.name,
-                        fmt::format("the tool lies {:.3g} m deep in the workpiece at {}, expected it outside "
-                                    "at the start",
-                                    -distance, show_place<3>(x)));
+  if (const auto found = overlap_at_start(*tool.shape, cloud, 0.5 * input.cloud.spacing))
+    throw input.error("tools." + tool.name,
+                      fmt::format("the tool lies {:.3g} m deep in the workpiece at {}, expected it outside "
+                                  "at the start",
+                                  found->depth, show_place<3>(found->place)));
 }
 
 std::vector<Coolant<2>> coolants(const input::Case& input) {

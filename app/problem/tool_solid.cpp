@@ -5,13 +5,29 @@
 #include "contact/swept_shape.hpp"
 #include "contact/triangle_shape.hpp"
 #include "core/error.hpp"
+#include "core/index.hpp"
+#include "voronoi/space/crossings.hpp"
+#include "voronoi/space/surface.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 
 namespace cnem::app {
 namespace {
 
 using contact::SweptShape;
+
+/// Throws GeometryError where a closed surface crosses or touches itself: there it has no side.
+void refuse_crossings(const TriangleSurface& surface) {
+  Cloud<3> cloud;
+  cloud.position.assign(surface.points.begin(), surface.points.end());
+  for (const auto& [a, b, c] : surface.triangles)
+    cloud.facets.push_back({{as<NodeIndex>(a), as<NodeIndex>(b), as<NodeIndex>(c)}, PieceIndex{}});
+  if (const auto pairs = voronoi::crossings(cloud); !pairs.empty())
+    throw GeometryError(fmt::format("the surface crosses itself: {} and {}",
+                                    voronoi::describe_facet(cloud, pairs[0][0]),
+                                    voronoi::describe_facet(cloud, pairs[0][1])));
+}
 
 double reach_of(const Cloud<3>& cloud, const Vec3& from) {
   constexpr double far = 1e3;
@@ -46,7 +62,10 @@ std::shared_ptr<const contact::ToolShape<3>> own_shape(const input::ToolSolid& s
     return std::make_shared<SweptShape>(SweptShape::along(solid.outline, solid.profile));
   case stl:
     try {
-      return std::make_shared<contact::TriangleShape>(joined(solid.soup));
+      const TriangleSurface surface = joined(solid.soup);
+      check_closed(surface);
+      refuse_crossings(surface);
+      return std::make_shared<contact::TriangleShape>(surface);
     } catch (const GeometryError& error) {
       throw InputError(solid.file + ": " + error.what() + ", expected triangles that close around the solid");
     }

@@ -68,6 +68,18 @@ template<> Workpiece<2> make_workpiece(const input::Case& input) {
 
 namespace {
 
+/// Where boxes of a grid are flatter than they are wide because the body is.
+void warn_of_thin_walls(const Cloud<3>& cloud, double spacing, std::vector<std::string>& warnings) {
+  Vec3 low = cloud.position.front(), high = low;
+  for (const Vec3& x : cloud.position) low = low.cwiseMin(x), high = high.cwiseMax(x);
+  int axis = 0;
+  const double thickness = (high - low).minCoeff(&axis);
+  if (thickness > spacing * (1.0 - 1e-9)) return;
+  warnings.push_back(fmt::format("the domain is {:.3g} m thick along {}, less than the spacing, {:.3g} m: no "
+                                 "node stands inside; refine",
+                                 thickness, "xyz"[axis], spacing));
+}
+
 /// Whether the tetrahedra of the start stay; otherwise each new reference finds its own.
 bool keeps_mesh(const input::Case& input) {
   return input.method.name != "cnem" ||
@@ -80,6 +92,7 @@ Workpiece<3> make_grid(const input::Case& input) {
   const auto faces = block.faces();
   made.cloud.piece_names.assign(faces.begin(), faces.end());
   Workpiece<3> workpiece{std::move(made.cloud), input.method.options, {}};
+  warn_of_thin_walls(workpiece.cloud, input.cloud.spacing, workpiece.warnings);
   if (keeps_mesh(input))
     workpiece.options.tetrahedra = std::move(made.tetrahedra);
   else

@@ -103,7 +103,8 @@ FacetSoup read_text(std::string_view bytes, double scale) {
       FacetSoup::Triangle triangle;
       triangle.solid = solid;
       words.expect("normal");
-      for (int k = 0; k < 3; ++k) words.number();
+      for (int k = 0; k < 3; ++k) // not looked at: facets without area have "nan" or anything
+        if (word = words.next(); word.empty() || word == "outer") words.fail(word, "a number");
       words.expect("outer");
       words.expect("loop");
       for (Vec3& corner : triangle.corner) {

@@ -54,7 +54,8 @@ public:
       if (!key->when.sibling.empty() && !applies(*key, setting, found, path)) continue;
       if (!found && key->presence != Presence::fallback) {
         if (key->presence == Presence::required)
-          diagnostics_.add(Mistake::missing_key, setting.where, path, key->missing());
+          diagnostics_.add(Mistake::missing_key, setting.where, path,
+                           key->missing() + other_choice(*key, setting));
         continue;
       }
       Setting member{key, key->name(), path, found ? found->where : setting.where, found != nullptr,
@@ -130,6 +131,14 @@ private:
                        fmt::format("goes with {0} = \"{1}\", expected none with {0} = \"{2}\"",
                                    key.when.sibling, fmt::join(values, "\" or \""), value));
     return false;
+  }
+
+  /// What else may be meant where a key is missing that goes with the default of its sibling.
+  static std::string other_choice(const Key& key, const Setting& table) {
+    const Setting* sibling = key.when.sibling.empty() ? nullptr : table.find(key.when.sibling);
+    if (!sibling || sibling->given) return "";
+    return fmt::format(", or another {} than \"{}\", the default", sibling->name,
+                       std::get<std::string>(sibling->value));
   }
 
   /// False when the value is wrong; that has been reported.

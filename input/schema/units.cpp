@@ -2,6 +2,7 @@
 #include "core/index.hpp"
 #include "core/rpm.hpp"
 
+#include "input/schema/document.hpp"
 #include "input/schema/nearest.hpp"
 
 #include <charconv>
@@ -118,7 +119,7 @@ public:
 
 private:
   [[noreturn]] void fail(const std::string& reason) const {
-    throw UnitError(fmt::format("cannot read the unit '{}': {}", whole_, reason));
+    throw UnitError(fmt::format("cannot read the unit '{}': {}", shortened(whole_), reason));
   }
   bool at_end() const { return at_ >= text_.size(); }
   char next() const { return at_end() ? '\0' : text_[at_]; }
@@ -227,8 +228,8 @@ private:
     static const std::vector<std::string> common{"mm", "m",   "um",  "s",   "ms",  "us",  "ns", "K",  "degC",
                                                  "Pa", "kPa", "MPa", "GPa", "N",   "kN",  "J",  "kJ", "W",
                                                  "kW", "kg",  "g",   "deg", "rad", "rpm", "min"};
-    throw UnitError(fmt::format("unknown unit '{}'{}{}", symbol,
-                                symbol == whole_ ? "" : fmt::format(" in '{}'", whole_),
+    throw UnitError(fmt::format("unknown unit '{}'{}{}", shortened(symbol),
+                                symbol == whole_ ? "" : fmt::format(" in '{}'", shortened(whole_)),
                                 did_you_mean(symbol, common)));
   }
 
@@ -252,16 +253,18 @@ bool is_digit(std::string_view text, std::size_t at) {
 /// Throws UnitError where a comma follows a number: there is none in numbers and between them.
 void refuse_comma(std::string_view text, std::string_view rest) {
   if (!rest.starts_with(',')) return;
-  std::string expected = fmt::format("spaces between numbers: '{}'",
-                                     replace_all(replace_all(std::string(text), ",", " "), "  ", " "));
+  std::string expected =
+      fmt::format("spaces between numbers: '{}'",
+                  shortened(replace_all(replace_all(std::string(text), ",", " "), "  ", " ")));
   if (is_digit(rest, 1)) {
     // "7,850" is a thousandth of 7850 to some.
     const bool thousands = is_digit(rest, 2) && is_digit(rest, 3) && !is_digit(rest, 4);
-    expected = thousands || text.find(',') != text.rfind(',')
-                   ? "a point in a number and nothing between thousands"
-                   : fmt::format("a point in a number: '{}'", replace_all(std::string(text), ",", "."));
+    expected =
+        thousands || text.find(',') != text.rfind(',')
+            ? "a point in a number and nothing between thousands"
+            : fmt::format("a point in a number: '{}'", shortened(replace_all(std::string(text), ",", ".")));
   }
-  throw UnitError(fmt::format("found '{}' with a comma, expected {}", text, expected));
+  throw UnitError(fmt::format("found '{}' with a comma, expected {}", shortened(text), expected));
 }
 
 /// The number that begins the text and how many characters it takes; 0 when there is none.
@@ -270,10 +273,12 @@ std::pair<double, std::size_t> leading_number(std::string_view text) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data() + plus, text.data() + text.size(), value);
   if (error == std::errc::result_out_of_range)
-    throw UnitError(fmt::format(
-        "found '{}', which is beyond what a number can hold, expected 0 or 1e-307 to 1e308", text));
+    throw UnitError(
+        fmt::format("found '{}', which is beyond what a number can hold, expected 0 or 1e-307 to 1e308",
+                    shortened(text)));
   if (error != std::errc{}) return {0.0, 0};
-  if (!std::isfinite(value)) throw UnitError(fmt::format("found '{}', expected a finite number", text));
+  if (!std::isfinite(value))
+    throw UnitError(fmt::format("found '{}', expected a finite number", shortened(text)));
   return {value, index_of(end - text.data())};
 }
 
@@ -345,21 +350,21 @@ std::vector<double> parse_quantities(std::string_view text, const Dimension& exp
     rest.remove_prefix(length);
     if (!whole_word) break;
   }
-  if (values.empty()) throw UnitError(fmt::format("found '{}', {}", text, expectation));
+  if (values.empty()) throw UnitError(fmt::format("found '{}', {}", shortened(text), expectation));
   Unit unit;
   skip_spaces();
   if (!rest.empty())
     unit = unit_of(rest, expectation);
   else if (!expected.dimensionless())
-    throw UnitError(fmt::format("found '{}' without a unit, {}", text, expectation));
+    throw UnitError(fmt::format("found '{}' without a unit, {}", shortened(text), expectation));
   if (unit.dimension != expected)
-    throw UnitError(
-        fmt::format("found '{}', which is {}, {}", text, describe(unit.dimension, rest).name, expectation));
+    throw UnitError(fmt::format("found '{}', which is {}, {}", shortened(text),
+                                describe(unit.dimension, rest).name, expectation));
   for (double& value : values) {
     value = unit.to_si(value);
     if (!std::isfinite(value))
-      throw UnitError(
-          fmt::format("found '{}', which is beyond what a number can hold, {}", text, expectation));
+      throw UnitError(fmt::format("found '{}', which is beyond what a number can hold, {}", shortened(text),
+                                  expectation));
   }
   return values;
 }

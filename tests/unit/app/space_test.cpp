@@ -38,6 +38,19 @@ lagrangian = "total"
 
 double volume(const Cloud<3>& cloud) { return enclosed_measure(cloud); }
 
+// As bodies without a grid are warned of.
+TEST(SpaceGrid, thinner_than_its_spacing_is_told) {
+  const auto warnings = [](const std::string& to) {
+    return build<3>(read("from = \"0 0 0 mm\", to = \"" + to + "\"")).warnings;
+  };
+  EXPECT_TRUE(warnings("4 2 0.5 mm").empty()) << "one layer as it was asked for";
+  const auto thin = warnings("4 2 0.4 mm");
+  ASSERT_EQ(thin.size(), 1U);
+  EXPECT_NE(thin[0].find("the domain is 0.0004 m thick along z, less than the spacing, 0.0005 m"),
+            std::string::npos)
+      << thin[0];
+}
+
 TEST(Space, a_box_has_its_faces_and_its_volume) {
   const app::Setup<3> setup = build<3>(read(R"(from = "4 2 3 mm", to = "0 1 1 mm")"));
   const Cloud<3>& cloud = setup.problem.cloud;

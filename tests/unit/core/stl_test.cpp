@@ -78,6 +78,16 @@ TEST(Stl, text_and_binary_are_the_same_surface) {
   EXPECT_EQ(again.points, read.points);
 }
 
+// Facets without area have normals that are no numbers.
+TEST(Stl, normals_are_not_looked_at) {
+  std::string other = text;
+  other.replace(other.find("0 0 -1"), 6, "-nan nan 1.#IND");
+  EXPECT_EQ(joined(parse_stl(other, 1.0)).triangles, joined(parse_stl(text, 1.0)).triangles);
+  other.replace(other.find("-nan nan 1.#IND"), 15, "");
+  EXPECT_EQ(message_of([&] { parse_stl(other, 1.0); }),
+            "line 3 of the STL file: found \"outer\", expected a number");
+}
+
 TEST(Stl, solids_keep_their_names_and_those_of_one_name_are_one) {
   std::string second = text;
   second.replace(second.find("solid tip"), 9, "solid other part");

@@ -95,5 +95,29 @@ TEST_F(TriangleFile, that_is_none_is_told_with_its_name_and_line) {
   }
 }
 
+// Places far from the surface and second names of a piece would go unnoticed: a piece lost its name.
+TEST_F(TriangleFile, has_names_at_places_on_its_surface_one_for_a_piece) {
+  const auto refusal = [&](const std::string& names) -> std::string {
+    try {
+      read("[domain]\nmaterial = \"steel\"\nstl.file = \"box.stl\"\nstl.names = [" + names + "]\n");
+    } catch (const InputError& error) { return error.what(); }
+    return "";
+  };
+  EXPECT_EQ(refusal(R"({ at = "0 1 1 mm", name = "a" }, { at = "4 1 1 mm", name = "a" },)"
+                    R"({ at = "0 1 0.5 mm", name = "a" })"),
+            "");
+  const std::string far = refusal(R"({ at = "9 1 1 mm", name = "left" })");
+  EXPECT_NE(
+      far.find("case.toml:15:16: key 'domain.stl.names[0].at': found (0.009, 0.001, 0.001) m, expected a "
+               "place on the surface: its nearest point, (0.004, 0.001, 0.001) m, is 0.005 m away"),
+      std::string::npos)
+      << far;
+  const std::string twice = refusal(R"({ at = "0 1 1 mm", name = "a" }, { at = "0 1 0.5 mm", name = "b" })");
+  EXPECT_NE(twice.find("key 'domain.stl.names[1].name': found \"b\" for the piece that domain.stl.names[0] "
+                       "calls \"a\", expected one name for a piece"),
+            std::string::npos)
+      << twice;
+}
+
 } // namespace
 } // namespace cnem::input

@@ -131,6 +131,17 @@ TEST(Units, MalformedTextIsRefusedNotCrashedOn) {
   EXPECT_THROW(parse_quantity("1 " + std::string(10000, '('), d::length), UnitError);
 }
 
+TEST(Units, TextsOfAnyLengthAreReadAndMessagesShortenThem) {
+  std::string list;
+  for (int k = 0; k < 1000; ++k) list += "1 ";
+  EXPECT_EQ(parse_quantities(list + "mm", d::length).size(), 1000U);
+  for (const char* end : {"", "s", "xyz", "1, 1 mm", "1e999 mm"}) {
+    const std::string message = message_of(list + end, d::length);
+    EXPECT_FALSE(message.empty());
+    EXPECT_LT(message.size(), 300U) << end;
+  }
+}
+
 TEST(Units, NumbersReadBackToTheSameBits) {
   for (const double value : {0.1, 1.0 / 3.0, 1e-300, 12e-6, 5.0e9, -0.0})
     EXPECT_EQ(parse_quantity(format_number(value), d::none), value);
