@@ -106,11 +106,12 @@ void join_crumbs(WorkingCloud& work, Structure& structure, const SplitRules& rul
   std::vector<std::vector<NodeIndex>> thin;
   for (const NodeIndex start : work.nodes()) {
     if (!work.on_boundary(start)) continue;
-    const std::vector<NodeIndex> loop = short_loop(work, start, index_of(rules.least_loop));
+    const std::size_t few = index_of(rules.least_loop);
+    const std::vector<NodeIndex> loop = short_loop(work, start, 2 * few);
     if (loop.empty() || *std::min_element(loop.begin(), loop.end()) != start ||
         !is_body(work, structure, loop))
       continue;
-    if (!is_thin(work, loop, rules) && !flies_apart(work, loop)) continue;
+    if (!(loop.size() <= few && is_thin(work, loop, rules)) && !flies_apart(work, loop)) continue;
     for (const NodeIndex i : loop) gone[i] = 1;
     thin.push_back(loop);
   }
