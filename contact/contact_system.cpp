@@ -33,9 +33,10 @@ template<int dim> double slope(const Contact<dim>& contact, double p) {
 } // namespace
 
 template<int dim>
-bool ContactSystem<dim>::settle(std::vector<Contact<dim>>& contacts, std::span<const std::int32_t> group,
-                                ReactionsOfNodes<dim>& nodes, ReactionsOfTools<dim>& tools, double dt,
-                                double depth, double known_depth) {
+typename ContactSystem<dim>::Outcome
+ContactSystem<dim>::settle(std::vector<Contact<dim>>& contacts, std::span<const std::int32_t> group,
+                           ReactionsOfNodes<dim>& nodes, ReactionsOfTools<dim>& tools, double dt,
+                           double depth, double known_depth) {
   Reaction<dim> none;
   const auto sweeper = [&](std::int32_t c) {
     Contact<dim>& contact = contacts[index_of(c)];
@@ -44,24 +45,24 @@ bool ContactSystem<dim>::settle(std::vector<Contact<dim>>& contacts, std::span<c
   member_.clear();
   rubs_ = false;
   for (const std::int32_t c : group)
-    if (!take(c, contacts[index_of(c)], sweeper(c), dt)) return false;
-  if (!couple(contacts, nodes, tools)) return false;
+    if (!take(c, contacts[index_of(c)], sweeper(c), dt)) return Outcome::unsettled;
+  if (!couple(contacts, nodes, tools)) return Outcome::costly;
   number();
-  if (dim == 3 && static_cast<double>(width() * band_ * band_) > most_work) return false;
+  if (wide(band_)) return Outcome::costly;
   fill();
   look(contacts);
   bool settled = false;
   for (int round = 0; round < rounds && !settled; ++round) {
-    if (!solve(contacts)) return false;
+    if (!solve(contacts)) return Outcome::unsettled;
     settled = !look(contacts);
   }
-  if (!settled || !consistent(dt, depth, known_depth)) return false;
+  if (!settled || !consistent(dt, depth, known_depth)) return Outcome::unsettled;
   for (const Member& member : member_) {
     Vec<dim> sliding = member.impulse(1) * member.axis[1];
     if constexpr (dim == 3) sliding += member.impulse(2) * member.axis[2];
     sweeper(member.contact).set(std::max(0.0, member.impulse(0)), sliding);
   }
-  return true;
+  return Outcome::settled;
 }
 
 /// Lists a member; false where it slips along what holds it, which no impulse stops.
@@ -128,7 +129,39 @@ void ContactSystem<dim>::take_axes(Member& member, const Contact<dim>& contact,
   member.sideways = *std::max_element(member.mobility.begin() + 1, member.mobility.end());
 }
 
-/// Lists the links; false where a free tool makes too many.
+/// Whether an elimination costs more than the sweeps it may save.
+template<int dim> bool ContactSystem<dim>::wide(std::size_t band) const {
+  return dim == 3 && static_cast<double>(width() * band * band) > most_work;
+}
+
+/// Whether the band is wide in whatever order, as known without any: of d members that one feels, itself
+/// among them, some are d/2 places away.
+template<int dim> bool ContactSystem<dim>::surely_wide() {
+  if (dim == 2) return false;
+  constexpr std::size_t slots = Contact<dim>::slots;
+  first_end_.resize(member_.size());
+  for (auto& first : first_end_) first.fill(end_.size());
+  for (std::size_t from = 0, e = 0; e < end_.size(); ++e) {
+    if (end_[e].node != end_[from].node) from = e;
+    auto& first = first_end_[index_of(end_[e].member)];
+    *std::find(first.begin(), first.end(), end_.size()) = from;
+  }
+  place_.assign(member_.size(), -1); // here: by which member it was seen last
+  for (std::size_t m = 0; m < member_.size(); ++m) {
+    std::size_t feels = 0;
+    for (std::size_t a = 0; a < slots; ++a)
+      for (std::size_t first = first_end_[m][a], e = first;
+           e < end_.size() && end_[e].node == end_[first].node; ++e)
+        if (std::int32_t& by = place_[index_of(end_[e].member)]; by != as<std::int32_t>(m)) {
+          by = as<std::int32_t>(m);
+          ++feels;
+        }
+    if (wide(width() * (feels / 2 + 1) - 1)) return true;
+  }
+  return false;
+}
+
+/// Lists the links; false where a free tool makes too many, or the band will be wide.
 template<int dim>
 bool ContactSystem<dim>::couple(const std::vector<Contact<dim>>& contacts, const ReactionsOfNodes<dim>& nodes,
                                 const ReactionsOfTools<dim>& tools) {
@@ -142,6 +175,7 @@ bool ContactSystem<dim>::couple(const std::vector<Contact<dim>>& contacts, const
   std::sort(end_.begin(), end_.end(), [](const End& a, const End& b) {
     return std::pair(a.node, a.member) < std::pair(b.node, b.member);
   });
+  if (surely_wide()) return false;
   link_.clear();
   for (auto from = end_.begin(); from != end_.end();) {
     const auto to = std::find_if(from, end_.end(), [&](const End& end) { return end.node != from->node; });

@@ -19,18 +19,21 @@ template<int dim> class Sweeper;
 /// their own.
 template<int dim> class ContactSystem {
 public:
+  enum class Outcome : std::int8_t { settled, unsettled, costly };
+
   /// Starts from the impulses that a connected group has. `depth` (m) is how deep its deepest contact was;
   /// known_depth ≥ depth (m), in space that of the deepest of the step so far, is what rest is measured by.
-  /// True when the states have settled; then impulses and reactions are those of the solution. False, and
-  /// nothing has changed, when
+  /// `settled` when the states have; then impulses and reactions are those of the solution. Else nothing has
+  /// changed: `unsettled` when
   /// - they have not, or in space a pivot vanishes or something slips along what holds it;
   /// - contacts contradict each other: the solution does not close them, or throws one further than
   ///   known_depth and a hundred times the depth, in space along the surface also further than a hundred
   ///   times the way of the fastest that slips;
-  /// - it would cost too much: a free tool has many contacts, or in space the band is wide.
-  bool settle(std::vector<Contact<dim>>& contacts, std::span<const std::int32_t> group,
-              ReactionsOfNodes<dim>& nodes, ReactionsOfTools<dim>& tools, double dt, double depth,
-              double known_depth);
+  /// `costly` when a free tool has many contacts, or in space the band is wide: so it is whatever the
+  /// impulses.
+  Outcome settle(std::vector<Contact<dim>>& contacts, std::span<const std::int32_t> group,
+                 ReactionsOfNodes<dim>& nodes, ReactionsOfTools<dim>& tools, double dt, double depth,
+                 double known_depth);
 
 private:
   enum class State : std::int8_t { open, pressing, sticking, slipping };
@@ -67,6 +70,7 @@ private:
   void take_axes(Member& member, const Contact<dim>& contact, const Sweeper<dim>& sweeper) const;
   bool couple(const std::vector<Contact<dim>>& contacts, const ReactionsOfNodes<dim>& nodes,
               const ReactionsOfTools<dim>& tools);
+  bool surely_wide();
   void number();
   void fill();
   State state_of(const Contact<dim>& contact, const Member& member, Vec<dim - 1>& friction) const;
@@ -77,6 +81,7 @@ private:
   bool eliminate();
   bool consistent(double dt, double depth, double known_depth) const;
 
+  bool wide(std::size_t band) const;
   std::size_t width() const { return rubs_ ? dim : 1; }
   std::size_t row(std::int32_t member, std::size_t k) const;
   double* row_of(std::vector<double>& matrix, std::size_t row) const;
@@ -86,6 +91,7 @@ private:
   std::vector<Member> member_;
   std::vector<End> end_;
   std::vector<Link> link_;
+  std::vector<std::array<std::size_t, Contact<dim>::slots>> first_end_; ///< [member] of those at its nodes
   std::vector<std::int32_t> place_, queue_; ///< [member] number, and [number] member
   std::vector<double> mobility_, matrix_;   ///< rows of 2 band + 1
   std::vector<double> right_, diagonal_;    ///< right_: and the solution; diagonal_: before elimination

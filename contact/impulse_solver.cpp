@@ -104,8 +104,8 @@ double ImpulseSolver<dim>::solve(std::vector<Contact<dim>>& contacts, ReactionsO
           moved = std::max(moved, shift_tool(contacts, group, nodes, tools[t], t, dt));
       if (moved <= least) break;
       if (sweep == next) {
-        system_.settle(contacts, group, nodes, tools, dt, depth, measure);
-        next *= 3;
+        const auto outcome = system_.settle(contacts, group, nodes, tools, dt, depth, measure);
+        next = outcome == ContactSystem<dim>::Outcome::costly ? 0 : 3 * next;
       }
     }
   }
