@@ -102,8 +102,8 @@ void open_cracks(WorkingCloud& work, Structure& structure, const SplitRules& rul
 /// broken matter, and those thinner than SplitRules::thinnest_film. Matter is shared out as by split().
 void cut_films(WorkingCloud& work, Structure& structure, const SplitRules& rules, PassReport& report);
 /// Crumbs, bodies of at most SplitRules::least_loop nodes, none of them inside, and thinner than
-/// SplitRules::thinnest_film or a fiftieth of the spacing, or of twice as many that are debris and have flown
-/// apart, go to the nearest
+/// SplitRules::thinnest_film or a fiftieth of the spacing, or of twice as many, inside too, that are debris and
+/// have flown apart, go to the nearest
 /// node of the boundary of the same part, however far it is, corners or not: cells of theirs, pressed between
 /// tools and bodies, mean nothing. What has none, or the last facets of a piece, stays. Nothing is deleted.
 void join_crumbs(WorkingCloud& work, Structure& structure, const SplitRules& rules, PassReport& report);

@@ -73,10 +73,13 @@ TEST(FlownDebris, joins_what_it_hangs_on) {
 
 /// How many bodies a pass joins with a blank of which there is one, with these corners and no other nodes,
 /// opened to `times` its volume, one of whose nodes is broken by `last`.
-int joined_bodies(const std::vector<Vec2>& corners, double times, double last) {
+int joined_bodies(const std::vector<Vec2>& corners, double times, double last, int inside = 0) {
   Blank b = blank(0.1);
-  const std::size_t first = b.cloud.position.size(), nodes = corners.size();
+  const std::size_t first = b.cloud.position.size(),
+                    nodes = corners.size() + static_cast<std::size_t>(inside);
   testing::add_loop(b.cloud, corners, 1.0);
+  const Vec2 middle = 0.5 * (corners[0] + corners[corners.size() / 2]);
+  for (int k = 0; k < inside; ++k) b.cloud.position.push_back(middle + Vec2(0.1 * k, 0.0));
   EXPECT_EQ(b.cloud.position.size(), first + nodes);
   b.weigh(0.1);
   b.node.broken.assign(b.node.mass.size(), 0.5);
@@ -116,6 +119,9 @@ TEST(FlownDebris, of_its_own_joins_what_is_nearest) {
   EXPECT_EQ(joined_bodies(bar(0.3), 5.0, 1.0), 0) << "near";
   EXPECT_EQ(joined_bodies(ring(16), 5.0, 1.0), 1);
   EXPECT_EQ(joined_bodies(ring(17), 5.0, 1.0), 0) << "many";
+  EXPECT_EQ(joined_bodies(ring(10), 5.0, 1.0, 3), 1) << "with nodes inside";
+  EXPECT_EQ(joined_bodies(ring(10), 5.0, 0.9, 3), 0) << "one inside bears";
+  EXPECT_EQ(joined_bodies(ring(14), 5.0, 1.0, 3), 0) << "many";
 }
 
 class Debris : public ::testing::TestWithParam<Placement> {};
