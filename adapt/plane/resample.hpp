@@ -102,10 +102,10 @@ void open_cracks(WorkingCloud& work, Structure& structure, const SplitRules& rul
 /// broken matter, and those thinner than SplitRules::thinnest_film. Matter is shared out as by split().
 void cut_films(WorkingCloud& work, Structure& structure, const SplitRules& rules, PassReport& report);
 /// Crumbs, bodies of at most SplitRules::least_loop nodes, none of them inside, and thinner than
-/// SplitRules::thinnest_film or a fiftieth of the spacing, or of twice as many, inside too, that are debris and
-/// have flown apart, go to the nearest
-/// node of the boundary of the same part, however far it is, corners or not: cells of theirs, pressed between
-/// tools and bodies, mean nothing. What has none, or the last facets of a piece, stays. Nothing is deleted.
+/// SplitRules::thinnest_film or a fiftieth of the spacing, or of twice as many, inside too, that are debris
+/// and have flown apart, go to the nearest node of the boundary of the same part, however far it is, corners
+/// or not: cells of theirs, pressed between tools and bodies, mean nothing. What has none, or the last facets
+/// of a piece, stays. Nothing is deleted.
 void join_crumbs(WorkingCloud& work, Structure& structure, const SplitRules& rules, PassReport& report);
 /// Facets shorter than a twentieth of the spacing between two nodes that stay, corners and ends of pieces, go
 /// with the one of them that bends the boundary less, but for the last facet of a piece: nothing else takes
