@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <deque>
 #include <initializer_list>
@@ -17,15 +18,16 @@ namespace {
 
 class Refinement {
 public:
-  Refinement(WorkingSurface& surface, Field& size, const SurfaceThresholds& limits, PassReport& report,
-             const PeriodImages& images)
-      : surface_(surface), alike_(surface, images), size_(size),
+  Refinement(WorkingSurface& surface, Field& size, const Field& matter, const SurfaceThresholds& limits,
+             PassReport& report, const PeriodImages& images)
+      : surface_(surface), alike_(surface, images), size_(size), matter_(matter),
         wide_(spacing_at_sharp_creases(surface, size)), limit_(limits), report_(report),
         old_nodes_(size.size()), debt_(size.size(), 0.0) {
     result_.into.assign(size.size(), NodeIndex::none);
   }
 
   RefinedSurface run() {
+    collapse_light();
     flip_all();
     for (int round = 0; round < limit_.rounds; ++round) {
       const int before = changes_;
@@ -171,24 +173,37 @@ private:
     for (const Candidate& c : list) collapse(c.start, c.end);
   }
 
+  /// Nodes with next to no matter: they stand on a facet of nodes around them, whose tetrahedra are theirs.
+  void collapse_light() {
+    std::vector<Candidate> list;
+    for (std::size_t i = 0; i < old_nodes_; ++i) {
+      const double share = matter_[i] / (size_[i] * size_[i] * size_[i]);
+      const auto node = as<NodeIndex>(i);
+      if (share < limit_.light && surface_.on_surface(node)) list.push_back({share, node, node});
+    }
+    std::sort(list.begin(), list.end());
+    for (const Candidate& light : list)
+      if (surface_.holds_little(light.start, size_[index_of(light.start)])) collapse_tip(light.start);
+  }
+
   /// Ends of whiskers and corners of films, one after the other: each goes into the nearest of the nodes
   /// beside it.
   void collapse_tips() {
     for (bool any = true; any;) {
       any = false;
       for (const NodeIndex i : IndexRange<NodeIndex>(surface_.nodes())) {
-        if (!surface_.is_tip(i, size_[index_of(i)])) continue;
-        std::vector<Candidate> ways;
-        surface_.around(i, [&](Edge e) { ways.push_back({surface_.length(e), i, surface_.end(e)}); });
-        std::sort(ways.begin(), ways.end());
-        any =
-            std::any_of(ways.begin(), ways.end(),
-                        [&](const Candidate& way) {
-                          return collapse(surface_.between(i, way.end), size_[index_of(i)], Collapse::of_tip);
-                        }) ||
-            any;
+        if (surface_.is_tip(i, size_[index_of(i)])) any = collapse_tip(i) || any;
       }
     }
+  }
+
+  bool collapse_tip(NodeIndex i) {
+    std::vector<Candidate> ways;
+    surface_.around(i, [&](Edge e) { ways.push_back({surface_.length(e), i, surface_.end(e)}); });
+    std::sort(ways.begin(), ways.end());
+    return std::any_of(ways.begin(), ways.end(), [&](const Candidate& way) {
+      return collapse(surface_.between(i, way.end), size_[index_of(i)], Collapse::of_tip);
+    });
   }
 
   bool collapse(NodeIndex gone, NodeIndex stays) {
@@ -225,6 +240,7 @@ private:
   WorkingSurface& surface_;
   AlikeEdits alike_;
   Field& size_;
+  const Field& matter_;
   Field wide_; ///< [node] m, spacing of the surface, wider than wanted at sharp creases
   const SurfaceThresholds& limit_;
   PassReport& report_;
@@ -254,9 +270,11 @@ void give_back(WorkingSurface& surface, Field debt, const Field& size, double mo
   }
 }
 
-RefinedSurface refine_surface(WorkingSurface& surface, Field& size, const SurfaceThresholds& limits,
-                              PassReport& report, const PeriodImages& images) {
-  return Refinement(surface, size, limits, report, images).run();
+RefinedSurface refine_surface(WorkingSurface& surface, Field& size, const Field& matter,
+                              const SurfaceThresholds& limits, PassReport& report,
+                              const PeriodImages& images) {
+  assert(matter.size() == size.size());
+  return Refinement(surface, size, matter, limits, report, images).run();
 }
 
 } // namespace cnem::adapt

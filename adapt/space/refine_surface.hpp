@@ -17,6 +17,7 @@ struct SurfaceThresholds {
   double split_edge = 1.5;  ///< longer edges are split
   double short_edge = 0.45; ///< shorter ones collapsed
   double low_height = 0.3;  ///< nodes nearer to a crease go into one of its nodes
+  double light = 0.005;     ///< nodes with less matter (in h³) that hold no more of the shape go
   double give_back = 0.1;   ///< how far a node moves at most to give back volume
   int rounds = 3;
 };
@@ -27,12 +28,13 @@ struct RefinedSurface {
   IndexedVector<NodeIndex, NodeIndex> into;   ///< [node] the one it went into; none: it is there
 };
 
-/// size: m, [node] wanted spacing, of new nodes too afterwards. Volume that collapses and flips change is
-/// given back by moving nodes near them along the gradient of the volume, not out of plane faces: only what
-/// creases and corners cannot give back is left. Images across periods change together. O(F log F). The
-/// result depends on the arguments alone.
-RefinedSurface refine_surface(WorkingSurface& surface, Field& size, const SurfaceThresholds& limits,
-                              PassReport& report, const PeriodImages& images);
+/// size: m, [node] wanted spacing, of new nodes too afterwards; matter: m³, [node] volume of what it has.
+/// Volume that collapses and flips change is given back by moving nodes near them along the gradient of the
+/// volume, not out of plane faces: only what creases and corners cannot give back is left. Images across
+/// periods change together. O(F log F). The result depends on the arguments alone.
+RefinedSurface refine_surface(WorkingSurface& surface, Field& size, const Field& matter,
+                              const SurfaceThresholds& limits, PassReport& report,
+                              const PeriodImages& images);
 
 /// Moves nodes along the gradient of the volume by `most` h at most, so that each wins the volume that it
 /// owes, debt[node] in m³; who cannot leaves it to nodes beside.

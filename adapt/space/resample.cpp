@@ -263,6 +263,9 @@ Refined refined(const Cloud<3>& cloud, const NodeProperties& properties, const F
                 const SpaceRules& rules, bool sound) {
   IndexedVector<NodeIndex, char> held = properties.held;
   const PeriodImages images(cloud, rules.periods);
+  Field matter(size.size());
+  for (std::size_t i = 0; i < matter.size(); ++i)
+    matter[i] = properties.mass[i] * properties.jacobian[i] / properties.density[i];
   constexpr int most = 4;
   for (int n = 0;; ++n) {
     Refined result{WorkingSurface(cloud, held, rules.surface), {}, size, {}};
@@ -273,7 +276,7 @@ Refined refined(const Cloud<3>& cloud, const NodeProperties& properties, const F
       return result;
     }
     result.changes =
-        refine_surface(result.surface, result.size, rules.thresholds.surface, result.report, images);
+        refine_surface(result.surface, result.size, matter, rules.thresholds.surface, result.report, images);
     Cloud<3> after;
     after.position = result.surface.position();
     after.facets = result.surface.facets();

@@ -218,7 +218,7 @@ Refusal WorkingSurface::may_collapse(Edge e, double spacing, Collapse kind) cons
   constexpr double one = 0.1; // h: folds so near to each other are one
   const bool folds_meet = length(e) < one * spacing && of_folds(gone);
   if (kind == Collapse::of_tip) {
-    if (!is_tip(gone, spacing)) return Refusal::corner;
+    if (!holds_little(gone, spacing)) return Refusal::corner;
   } else if (corner(gone)) {
     if (!folds_meet || !corner(stays)) return Refusal::corner;
   } else if (on_crease(gone) && !crease(e) && !(folds_meet && on_crease(stays))) {
@@ -242,7 +242,11 @@ double WorkingSurface::volume_towards(NodeIndex gone, NodeIndex stays) const {
 }
 
 bool WorkingSurface::is_tip(NodeIndex i, double spacing) const {
-  if (!on_surface(i) || held(i) || still(i) || !of_folds(i) || !corner(i)) return false;
+  return on_surface(i) && corner(i) && holds_little(i, spacing);
+}
+
+bool WorkingSurface::holds_little(NodeIndex i, double spacing) const {
+  if (!on_surface(i) || held(i) || still(i) || !of_folds(i)) return false;
   const double most = rules_.tip * spacing * spacing * spacing;
   bool little = true;
   around(i, [&](Edge e) { little = little && std::abs(volume_towards(i, end(e))) < most; });

@@ -116,6 +116,8 @@ public:
   /// Whether a node is a corner of one piece that holds less than rules.tip whichever way it would go: the
   /// end of a whisker that has been drawn out, or a corner of a film. Collapse::of_tip takes it away.
   bool is_tip(NodeIndex i, double spacing) const;
+  /// The same of nodes that are no corners, which may have all of their cell behind them.
+  bool holds_little(NodeIndex i, double spacing) const;
   /// The edge becomes the other diagonal of its two facets.
   SurfaceChange flip(Edge e, double spacing);
   /// What flip() would do.

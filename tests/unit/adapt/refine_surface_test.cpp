@@ -18,6 +18,13 @@ WorkingSurface loose_surface_of(const Cloud<3>& cloud) {
   return WorkingSurface(cloud, IndexedVector<NodeIndex, char>(cloud.position.size(), 0));
 }
 
+/// Matter of nodes that have a cell.
+Field enough(const Field& size) {
+  Field matter;
+  for (const double h : size) matter.push_back(0.1 * h * h * h);
+  return matter;
+}
+
 // Edges of 0.42 h become edges of 0.83 h, a few of three lengths, not all of as many as go below the limit
 // for splits: that would be 4 on each edge of the cube.
 TEST(RefineSurface, of_a_row_of_short_edges_every_second_node_goes) {
@@ -25,7 +32,7 @@ TEST(RefineSurface, of_a_row_of_short_edges_every_second_node_goes) {
   WorkingSurface surface = loose_surface_of(cloud);
   Field size(cloud.position.size(), 0.2);
   PassReport report;
-  refine_surface(surface, size, {}, report, PeriodImages(cloud, {}));
+  refine_surface(surface, size, enough(size), {}, report, PeriodImages(cloud, {}));
   int edges = 0;
   double longest = 0.0;
   for (WorkingSurface::Edge e = 0; e < surface.edges(); ++e) {
@@ -111,13 +118,38 @@ TEST(RefineSurface, needles_lose_their_end) {
     EXPECT_EQ(surface.is_tip(tip, h), thin < 0.1);
     Field size(cloud.position.size(), h);
     PassReport report;
-    const RefinedSurface refined = refine_surface(surface, size, {}, report, PeriodImages(cloud, {}));
+    const RefinedSurface refined =
+        refine_surface(surface, size, enough(size), {}, report, PeriodImages(cloud, {}));
     EXPECT_EQ(exists(refined.into[tip]), thin < 0.1) << thin;
     cloud.position = surface.position();
     cloud.facets = surface.facets();
     const double lost = volume - enclosed_measure(cloud); // a plane face takes nothing
     EXPECT_GT(lost, -1e-14);
     EXPECT_LT(lost, thin < 0.1 ? 1.001 * needle : 1e-14);
+  }
+}
+
+// A node that stands on a facet of others has none of the metal behind it, however wide its surroundings are.
+TEST(RefineSurface, nodes_without_matter_go_from_smooth_faces) {
+  constexpr int cells = 6;
+  constexpr double h = 1.0 / cells;
+  const Cloud<3> cloud = testing::unrecovered({.shape = SpaceShape::cube, .cells = cells});
+  Field size(cloud.position.size(), h);
+  for (const Vec3& place : {Vec3(0.5, 0.5, 1.0), Vec3(0.5, 1.0, 1.0), Vec3(1.0, 1.0, 1.0)}) {
+    WorkingSurface surface = loose_surface_of(cloud);
+    Field matter = enough(size);
+    NodeIndex light = NodeIndex::none;
+    for (const NodeIndex i : cloud.position.indices())
+      if ((cloud.position[i] - place).norm() < 1e-9) light = i;
+    ASSERT_TRUE(exists(light));
+    matter[index_of(light)] = 1e-4 * h * h * h;
+    PassReport report;
+    Field spacing = size;
+    const RefinedSurface refined =
+        refine_surface(surface, spacing, matter, {}, report, PeriodImages(cloud, {}));
+    const bool in_face = place.y() < 1.0; // edges and corners stay, whatever they have
+    EXPECT_EQ(exists(refined.into[light]), in_face);
+    EXPECT_EQ(report.removed_boundary, in_face ? 1 : 0);
   }
 }
 
