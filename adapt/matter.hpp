@@ -22,6 +22,11 @@ struct NodeProperties {
   /// What may not mix, the material for example: a label, one in each part that the boundary divides the
   /// domain into. Empty: all may.
   IndexedVector<NodeIndex, std::int32_t> part{};
+
+  /// m³, what the matter of a node fills.
+  double filled(NodeIndex i) const {
+    return mass[index_of(i)] * jacobian[index_of(i)] / density[index_of(i)];
+  }
   /// kg/m (kg of revolution), what a node's share of the body holds now, where that is not its cell: of a
   /// cloud whose nodes stay. Empty: ρ₀ V/J of its cell.
   Field matter{};

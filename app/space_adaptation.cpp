@@ -19,31 +19,13 @@
 namespace cnem::app {
 namespace {
 
-/// Gives nodes that no links join, over however many others, different parts: nothing goes from one to
-/// another.
-void keep_bodies_apart(const StabilisationLinks<3>& links, adapt::NodeProperties& properties) {
-  const std::size_t n = properties.mass.size();
-  std::vector<std::int32_t> body(n, -1);
-  std::int32_t bodies = 0;
-  std::vector<std::size_t> stack;
-  for (std::size_t first = 0; first < n; ++first) {
-    if (body[first] >= 0) continue;
-    body[first] = bodies;
-    stack.push_back(first);
-    while (!stack.empty()) {
-      const std::size_t i = stack.back();
-      stack.pop_back();
-      for (auto l = index_of(links.begin[i]); l < index_of(links.begin[i + 1]); ++l)
-        if (std::int32_t& other = body[index_of(links.neighbour[l])]; other < 0) {
-          other = bodies;
-          stack.push_back(index_of(links.neighbour[l]));
-        }
-    }
-    ++bodies;
-  }
-  if (bodies == 1) return;
-  properties.part.resize(n, 0);
-  for (std::size_t i = 0; i < n; ++i) properties.part[i] = properties.part[i] * bodies + body[i];
+/// Bodies are parts of their own: nothing goes from one to another.
+void keep_bodies_apart(const IndexedVector<NodeIndex, std::int32_t>& body,
+                       adapt::NodeProperties& properties) {
+  if (body.empty()) return;
+  const std::int32_t bodies = 1 + *std::max_element(body.begin(), body.end());
+  properties.part.resize(body.size(), 0);
+  for (const NodeIndex i : body.indices()) properties.part[i] = properties.part[i] * bodies + body[i];
 }
 
 using Report = adapt::PassReport;
@@ -149,7 +131,7 @@ double SpaceAdaptation::renew(ExplicitSolver<3>& solver, const Follow& follow) {
     limit_at_tools(solver, cloud, wanted);
     adapt::NodeProperties properties = node_properties(*input_, solver, wanted);
     hold_points(cloud, solver.conditions().supports, properties.held);
-    keep_bodies_apart(solver.approximation().links, properties);
+    keep_bodies_apart(cloud.body, properties);
     const Resampling<3> change = adapt::resample(cloud, std::move(properties), rules, report);
     solver.prepare(change);
     if (input_->adapt.indicator) {

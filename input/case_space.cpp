@@ -45,8 +45,7 @@ std::pair<std::vector<std::string>, std::size_t> faceted_names(const Cloud<3>& s
 /// Each place is on the surface, and pieces have one name.
 void check_names(const Setting& names, const clouds::Faceted& faceted, const Cloud<3>& surface,
                  Diagnostics& diagnostics) {
-  Box<3> box{surface.position.front(), surface.position.front()};
-  for (const Vec3& x : surface.position) box.low = box.low.cwiseMin(x), box.high = box.high.cwiseMax(x);
+  const Box<3> box = box_of<3>(surface.position);
   const double far = 0.01 * (box.high - box.low).norm(); // round faces lie a little off their triangles
   const clouds::FacetTree tree(surface);
   std::map<PieceIndex, std::size_t> named;

@@ -1,7 +1,6 @@
 // Crumbs: bodies of a few nodes, none of them inside, that are thinner than films may be or next to nothing:
 // what is left of films that were cut, and debris that was pressed flat. Or debris that flies apart, some of
-// it inside: its
-// nodes bear nothing together and go their ways until the loop turns inside out.
+// it inside: its nodes bear nothing together and go their ways until the loop turns inside out.
 #include "adapt/plane/apply_valid.hpp"
 #include "adapt/plane/resample.hpp"
 #include "core/index.hpp"

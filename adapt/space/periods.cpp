@@ -58,6 +58,23 @@ std::vector<std::vector<NodeIndex>> PeriodImages::groups() const {
   return list;
 }
 
+bool move_alike(Cloud<3>& cloud, const std::vector<std::vector<NodeIndex>>& groups,
+                const IndexedVector<NodeIndex, Vec3>& way, const IndexedVector<NodeIndex, char>& held) {
+  bool any = false;
+  for (const std::vector<NodeIndex>& group : groups) {
+    Vec3 longest = Vec3::Zero();
+    bool stays = false;
+    for (const NodeIndex i : group) {
+      if (way[i].norm() > longest.norm()) longest = way[i];
+      stays = stays || held[i];
+    }
+    if (stays || longest.isZero()) continue;
+    for (const NodeIndex i : group) cloud.position[i] += longest;
+    any = true;
+  }
+  return any;
+}
+
 /// visit(piece, image) for the pieces on both sides of an edge that are of a period; no_edge where the image
 /// is not there.
 template<class Visit> void AlikeEdits::each_image(Edge e, Visit&& visit) const {

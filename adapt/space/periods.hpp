@@ -30,6 +30,11 @@ private:
   std::vector<IndexedVector<NodeIndex, NodeIndex>> other_; ///< [period][node]
 };
 
+/// Moves nodes of groups of images, which go the longest of their ways (m, [node]) unless one of them is
+/// held. Whether any goes.
+bool move_alike(Cloud<3>& cloud, const std::vector<std::vector<NodeIndex>>& groups,
+                const IndexedVector<NodeIndex, Vec3>& way, const IndexedVector<NodeIndex, char>& held);
+
 /// Changes of a surface that are made on all images of an edge or on none.
 class AlikeEdits {
 public:

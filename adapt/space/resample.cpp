@@ -1,5 +1,6 @@
 #include "adapt/space/resample.hpp"
 
+#include "adapt/space/refine_uncrossed.hpp"
 #include "adapt/space/seams.hpp"
 #include "adapt/space/unfold.hpp"
 #include "core/error.hpp"
@@ -24,12 +25,6 @@ namespace cnem::adapt {
 
 namespace {
 
-/// m³, what the matter of a node fills.
-double filled(const WorkingBody& body, NodeIndex i) {
-  const NodeProperties& p = body.node();
-  return p.mass[index_of(i)] * p.jacobian[index_of(i)] / p.density[index_of(i)];
-}
-
 /// The matter of nodes that are gone goes to nodes at the place where each was: those that have more volume
 /// than matter take most. number: [node] in the structure; none: gone.
 std::vector<Parcel> inheritance(const WorkingBody& body, const SpaceStructure& structure,
@@ -40,13 +35,13 @@ std::vector<Parcel> inheritance(const WorkingBody& body, const SpaceStructure& s
   for (const NodeIndex i : body.nodes())
     if (exists(number[i])) {
       body_number[number[i]] = i;
-      room[index_of(number[i])] = structure.volume(number[i]) - filled(body, i);
+      room[index_of(number[i])] = structure.volume(number[i]) - body.node().filled(i);
     }
   IndexedVector<NodeIndex, NodeIndex> near(body.size(), NodeIndex::none);
   for (const Removal& removal : list) near[removal.gone] = removal.near;
   std::vector<Parcel> parcels;
   for (const Removal& removal : list) {
-    const double matter = filled(body, removal.gone);
+    const double matter = body.node().filled(removal.gone);
     if (matter == 0.0) continue;
     NodeIndex stays = removal.near;
     if (!exists(stays))
@@ -207,7 +202,7 @@ void endow(WorkingBody& body, const SpaceStructure& structure) {
   IndexedVector<NodeIndex, char> is_poor(body.size(), 0);
   for (const NodeIndex i : body.nodes())
     if (p.mass[index_of(i)] == 0.0 ||
-        (!exists(body.old_of(i)) && filled(body, i) < enough * structure.volume(i))) {
+        (!exists(body.old_of(i)) && body.node().filled(i) < enough * structure.volume(i))) {
       poor.push_back(i);
       is_poor[i] = 1;
     }
@@ -216,7 +211,7 @@ void endow(WorkingBody& body, const SpaceStructure& structure) {
   // what neighbours have too much, shared out by what the poor lack
   Field lack(body.size(), 0.0), claims(body.size(), 0.0), given(body.size(), 0.0);
   for (const NodeIndex i : poor) {
-    lack[index_of(i)] = structure.volume(i) - filled(body, i);
+    lack[index_of(i)] = structure.volume(i) - body.node().filled(i);
     for (const NodeIndex k : structure.neighbours(i))
       if (giver(i, k)) claims[index_of(k)] += lack[index_of(i)];
   }
@@ -225,21 +220,21 @@ void endow(WorkingBody& body, const SpaceStructure& structure) {
     const double wanted = lack[index_of(i)];
     double offered = 0.0;
     const auto surplus = [&](NodeIndex k) {
-      return std::max(0.0, filled(body, k) - structure.volume(k)) * wanted / claims[index_of(k)];
+      return std::max(0.0, body.node().filled(k) - structure.volume(k)) * wanted / claims[index_of(k)];
     };
     for (const NodeIndex k : structure.neighbours(i))
       if (giver(i, k)) offered += surplus(k);
     const double taken = offered > 0.0 ? std::min(1.0, wanted / offered) : 0.0;
     double all = 0.0;
     for (const NodeIndex k : structure.neighbours(i))
-      if (giver(i, k)) all += filled(body, k);
+      if (giver(i, k)) all += body.node().filled(k);
     // the rest comes evenly from all
     constexpr double most = 0.2;
     const double rest = all > 0.0 ? std::clamp((enough * wanted - offered) / all, 0.0, most) : 0.0;
     for (const NodeIndex k : structure.neighbours(i)) {
       if (!giver(i, k)) continue;
       const double fraction =
-          std::min(taken * surplus(k) / filled(body, k) + rest, 0.8 * (1.0 - given[index_of(k)]));
+          std::min(taken * surplus(k) / body.node().filled(k) + rest, 0.8 * (1.0 - given[index_of(k)]));
       given[index_of(k)] += fraction;
       if (fraction > 0.0) parcels.push_back({k, i, fraction});
     }
@@ -249,76 +244,12 @@ void endow(WorkingBody& body, const SpaceStructure& structure) {
 
 namespace {
 
-/// The surface with its resolution restored; nodes at which it would cross itself then are left as they are.
-struct Refined {
-  WorkingSurface surface;
-  RefinedSurface changes;
-  Field size;
-  PassReport report;
-  bool sound = true; ///< whether the facets are known not to cross each other
-};
-
-/// sound: whether those of the cloud are.
-Refined refined(const Cloud<3>& cloud, const NodeProperties& properties, const Field& size,
-                const SpaceRules& rules, bool sound) {
-  IndexedVector<NodeIndex, char> held = properties.held;
-  const PeriodImages images(cloud, rules.periods);
-  Field matter(size.size());
-  for (std::size_t i = 0; i < matter.size(); ++i)
-    matter[i] = properties.mass[i] * properties.jacobian[i] / properties.density[i];
-  constexpr int most = 4;
-  for (int n = 0;; ++n) {
-    Refined result{WorkingSurface(cloud, held, rules.surface), {}, size, {}};
-    if (n == most) {
-      result.sound = sound;
-      result.changes.into.assign(cloud.position.size(), NodeIndex::none);
-      ++result.report.undone;
-      return result;
-    }
-    result.changes =
-        refine_surface(result.surface, result.size, matter, rules.thresholds.surface, result.report, images);
-    Cloud<3> after;
-    after.position = result.surface.position();
-    after.facets = result.surface.facets();
-    after.twins = cloud.twins;
-    after.body = cloud.body;
-    if (!after.body.empty())
-      for (const auto& [a, b] : result.changes.made) after.body.push_back(std::int32_t{after.body[a]});
-    const auto pairs =
-        sound ? voronoi::crossings(after, result.surface.changed_facets(cloud)) : voronoi::crossings(after);
-    if (pairs.empty()) return result;
-    for (const auto& pair : pairs)
-      for (const CloudFacetIndex f : pair) {
-        // old nodes of the facet and those that its new ones come from
-        std::vector<NodeIndex> stack(after.facets[f].node.begin(), after.facets[f].node.end());
-        while (!stack.empty()) {
-          const NodeIndex i = stack.back();
-          stack.pop_back();
-          if (index_of(i) < held.size()) {
-            held[i] = 1;
-            result.surface.around(i, [&](auto e) {
-              if (index_of(result.surface.end(e)) < held.size()) held[result.surface.end(e)] = 1;
-            });
-          } else {
-            const auto& ends = result.changes.made[index_of(i) - held.size()];
-            stack.insert(stack.end(), ends.begin(), ends.end());
-          }
-        }
-      }
-    for (const NodeIndex i : cloud.position.indices()) { // what has gone into nodes there stays, too
-      NodeIndex at = i;
-      while (exists(result.changes.into[at])) at = result.changes.into[at];
-      if (index_of(at) < held.size() && held[at]) held[i] = 1;
-    }
-  }
-}
-
 /// A pass whose surface has this spacing (m, [node]). sound: whether that of the cloud is known not to cross
 /// itself.
 Resampling<3> attempt(const Cloud<3>& cloud, NodeProperties properties, const Field& size,
                       const SpaceRules& rules, bool sound, PassReport& report) {
   const SpaceThresholds& limits = rules.thresholds;
-  Refined first = refined(cloud, properties, size, rules, sound);
+  UncrossedSurface first = refine_uncrossed(cloud, properties, size, rules, sound);
   report += first.report;
   WorkingBody body(cloud, std::move(properties));
   const std::size_t old_nodes = body.size();
@@ -371,25 +302,26 @@ Resampling<3> resample(const Cloud<3>& present, NodeProperties properties, const
   for (const Period& period : rules.periods)
     rules.surface.still.insert(rules.surface.still.end(), period.begin(), period.end());
   align_periods(cloud, rules.periods, properties.size);
+  const PeriodImages images(cloud, rules.periods);
   const auto pairs = voronoi::crossings(cloud);
   if (!pairs.empty()) {
     report.crossings += static_cast<int>(pairs.size());
-    unfold(cloud, properties.held, properties.size, PeriodImages(cloud, rules.periods), rules.surface,
-           report);
+    unfold(cloud, properties.held, properties.size, images, rules.surface, report);
   }
   // Where facets are lost the other side of the body is nearer than they are long: they become shorter there,
   // once. More would not end beside crowded creases.
   constexpr int times = 2;
   constexpr double shorter = 0.7, beside = 1.5;
   Field size = properties.size;
-  bool upright = !rules.periods.empty(); // but where the boundary cannot be recovered then
+  Cloud<3> straightened = cloud;
+  const int turned = straighten_seams(straightened, images, properties.held, properties.size, rules.surface);
+  bool upright = turned > 0; // but where the boundary cannot be recovered then
   for (int n = 1;;) {
     PassReport tried = report;
+    if (upright) tried.straightened += turned;
     try {
-      Cloud<3> straightened = cloud;
-      if (upright) straighten_seams(straightened, rules.periods, properties.held, properties.size, tried);
-      upright = tried.straightened > 0;
-      Resampling<3> change = attempt(straightened, properties, size, rules, pairs.empty(), tried);
+      Resampling<3> change =
+          attempt(upright ? straightened : cloud, properties, size, rules, pairs.empty(), tried);
       change.old_position = present.position;
       report = tried;
       report.volume_change += enclosed_measure(change.cloud) - enclosed_measure(present);

@@ -14,10 +14,10 @@ namespace {
 
 class Straightening {
 public:
-  Straightening(Cloud<3>& cloud, std::span<const Period> periods, const IndexedVector<NodeIndex, char>& held,
-                const Field& size)
-      : cloud_(cloud), before_(cloud.position), periods_(periods), held_(held), size_(size),
-        groups_(PeriodImages(cloud, periods).groups()),
+  Straightening(Cloud<3>& cloud, const PeriodImages& images, const IndexedVector<NodeIndex, char>& held,
+                const Field& size, const SurfaceRules& rules)
+      : cloud_(cloud), before_(cloud.position), rules_(rules), held_(held), size_(size),
+        groups_(images.groups()),
         facets_(group_by_cell<CloudFacetIndex>(
             cloud.position.size(), cloud.facets.size(),
             [&](std::size_t f) { return cloud.facets[as<CloudFacetIndex>(f)].node; })),
@@ -31,9 +31,7 @@ public:
     for (const std::vector<NodeIndex>& group : groups_)
       if (group.size() == 2) // else it is on two periods
         for (std::size_t a = 0; a < 2; ++a) consider(group[a], group[1 - a]);
-    bool any = false;
-    for (const std::vector<NodeIndex>& group : groups_) any = go(group) || any;
-    if (!any) return 0;
+    if (!move_alike(cloud_, groups_, way_, held_)) return 0;
     put_back_what_crosses();
     int moved = 0;
     for (const NodeIndex i : cloud_.position.indices()) moved += cloud_.position[i] != before_[i];
@@ -43,11 +41,7 @@ public:
 private:
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
-  bool on_seam(CloudFacetIndex f) const {
-    return std::any_of(periods_.begin(), periods_.end(), [&](const Period& period) {
-      return cloud_.facets[f].piece == period[0] || cloud_.facets[f].piece == period[1];
-    });
-  }
+  bool on_seam(CloudFacetIndex f) const { return rules_.is_still(cloud_.facets[f].piece); }
   Vec3 normal(CloudFacetIndex f) const { return area_normal<3>(corners_of<3>(cloud_.facets[f], before_)); }
 
   /// Sum of the area normals of the facets of a node, of sides or of the skin.
@@ -115,20 +109,7 @@ private:
   }
 
   void propose(NodeIndex i, const Vec3& way) {
-    if (way.norm() > way_[i].norm()) way_[i] = way;
-  }
-
-  /// Images go the longest way of one of them. False: they stay.
-  bool go(const std::vector<NodeIndex>& group) {
-    Vec3 longest = Vec3::Zero();
-    bool held = group.size() != 2;
-    for (const NodeIndex i : group) {
-      if (way_[i].norm() > longest.norm()) longest = way_[i];
-      held = held || held_[i];
-    }
-    if (held || longest.isZero()) return false;
-    for (const NodeIndex i : group) cloud_.position[i] += longest;
-    return true;
+    if (groups_[group_of_[i]].size() == 2 && way.norm() > way_[i].norm()) way_[i] = way;
   }
 
   void put_back_what_crosses() {
@@ -146,7 +127,7 @@ private:
 
   Cloud<3>& cloud_;
   const IndexedVector<NodeIndex, Vec3> before_;
-  const std::span<const Period> periods_;
+  const SurfaceRules& rules_;
   const IndexedVector<NodeIndex, char>& held_;
   const Field& size_;
   std::vector<std::vector<NodeIndex>> groups_; ///< of images
@@ -157,9 +138,9 @@ private:
 
 } // namespace
 
-void straighten_seams(Cloud<3>& cloud, std::span<const Period> periods,
-                      const IndexedVector<NodeIndex, char>& held, const Field& size, PassReport& report) {
-  if (!periods.empty()) report.straightened += Straightening(cloud, periods, held, size).run();
+int straighten_seams(Cloud<3>& cloud, const PeriodImages& images, const IndexedVector<NodeIndex, char>& held,
+                     const Field& size, const SurfaceRules& rules) {
+  return images.empty() ? 0 : Straightening(cloud, images, held, size, rules).run();
 }
 
 } // namespace cnem::adapt

@@ -1,6 +1,5 @@
 #pragma once
 // Keeps the sides of a slice between periodic planes upright to its skin.
-#include "adapt/pass_report.hpp"
 #include "adapt/space/periods.hpp"
 #include "core/fields/aligned.hpp"
 #include "core/geometry/cloud.hpp"
@@ -14,9 +13,10 @@ namespace cnem::adapt {
 /// of that edge, and nodes within the side beside it go away from the skin until they are 0.4 of the spacing
 /// below it, by 0.2 at once; images go alike, which changes no volume where the skin is plane. What would
 /// cross something is put back. Borders in which pieces of the skin meet go along these alone, nodes on two
-/// periods stay. Counts nodes that move as straightened. held: [node] those that stay; size: [node] m, wanted
-/// spacing. O(F log² F) where anything moves. Throws GeometryError as shifted_nodes() does.
-void straighten_seams(Cloud<3>& cloud, std::span<const Period> periods,
-                      const IndexedVector<NodeIndex, char>& held, const Field& size, PassReport& report);
+/// periods stay. Returns the number of nodes that move. held: [node] those that stay; size: [node] m, wanted
+/// spacing; images: across periods, whose pieces rules.still names. O(F log² F) where anything moves. Throws
+/// GeometryError as shifted_nodes() does.
+int straighten_seams(Cloud<3>& cloud, const PeriodImages& images, const IndexedVector<NodeIndex, char>& held,
+                     const Field& size, const SurfaceRules& rules);
 
 } // namespace cnem::adapt

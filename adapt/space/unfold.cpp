@@ -30,8 +30,8 @@ IndexedVector<NodeIndex, char> with_neighbours(const Cloud<3>& cloud,
 class Unfolding {
 public:
   Unfolding(Cloud<3>& cloud, const IndexedVector<NodeIndex, char>& held, const Field& size,
-            const PeriodImages& images, const std::vector<PieceIndex>& seams)
-      : cloud_(cloud), before_(cloud.position), held_(held), size_(size), planes_(cloud), seams_(seams),
+            const PeriodImages& images, const SurfaceRules& rules)
+      : cloud_(cloud), before_(cloud.position), held_(held), size_(size), planes_(cloud), rules_(rules),
         groups_(images.groups()), active_(cloud.position.size(), 0), within_seam_(cloud.position.size(), 1) {
     for (const CloudFacetIndex f : cloud.facets.indices())
       if (!on_seam(f))
@@ -142,9 +142,7 @@ private:
     return winding(middle(pair) + little * h * up.normalized()) < 0;
   }
 
-  bool on_seam(CloudFacetIndex f) const {
-    return std::find(seams_.begin(), seams_.end(), cloud_.facets[f].piece) != seams_.end();
-  }
+  bool on_seam(CloudFacetIndex f) const { return rules_.is_still(cloud_.facets[f].piece); }
 
   /// Where a seam and a face have run into each other the seam goes: it is a cut through matter that goes on
   /// behind it, and its image takes what it gives.
@@ -159,7 +157,7 @@ private:
       IndexedVector<NodeIndex, Vec3> way(cloud_.position.size(), Vec3::Zero());
       const voronoi::Winding winding(cloud_);
       for (const Pair& pair : pairs) leave_face(pair, were_back_to_back(pair, winding), way);
-      if (!move_alike(way)) return set_back(pairs);
+      if (!move_alike(cloud_, groups_, way, held_)) return set_back(pairs);
     }
   }
 
@@ -209,23 +207,6 @@ private:
     }
   }
 
-  /// Images go the longest way of one of them. False: none goes.
-  bool move_alike(IndexedVector<NodeIndex, Vec3>& way) {
-    bool any = false;
-    for (const std::vector<NodeIndex>& group : groups_) {
-      Vec3 longest = Vec3::Zero();
-      bool held = false;
-      for (const NodeIndex i : group) {
-        if (way[i].norm() > longest.norm()) longest = way[i];
-        held = held || held_[i];
-      }
-      if (held || longest.isZero()) continue;
-      for (const NodeIndex i : group) cloud_.position[i] += longest;
-      any = true;
-    }
-    return any;
-  }
-
   /// Facets that have run into each other go apart along the normal of the one that is entered less deep.
   void push_apart(const std::vector<Pair>& pairs) {
     IndexedVector<NodeIndex, Vec3> way(cloud_.position.size(), Vec3::Zero());
@@ -271,7 +252,7 @@ private:
   const IndexedVector<NodeIndex, char>& held_;
   const Field& size_;
   BoundaryPlanes planes_;
-  const std::vector<PieceIndex>& seams_;
+  const SurfaceRules& rules_;
   std::vector<std::vector<NodeIndex>> groups_; ///< of images
   IndexedVector<NodeIndex, char> active_;      ///< nodes that are smoothed
   IndexedVector<NodeIndex, char> within_seam_; ///< whether all facets of a node are of seams
@@ -282,7 +263,7 @@ private:
 void unfold(Cloud<3>& cloud, const IndexedVector<NodeIndex, char>& held, const Field& size,
             const PeriodImages& images, const SurfaceRules& rules, PassReport& report) {
   const double volume = enclosed_measure(cloud);
-  Unfolding unfolding(cloud, held, size, images, rules.still);
+  Unfolding unfolding(cloud, held, size, images, rules);
   report.folded += unfolding.run();
   IndexedVector<NodeIndex, char> owing = unfolding.active();
   if (std::count(owing.begin(), owing.end(), 1) == 0) return;

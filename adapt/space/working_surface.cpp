@@ -54,10 +54,6 @@ WorkingSurface::WorkingSurface(const Cloud<3>& cloud, const IndexedVector<NodeIn
   }
 }
 
-bool WorkingSurface::is_still(PieceIndex piece) const {
-  return std::find(rules_.still.begin(), rules_.still.end(), piece) != rules_.still.end();
-}
-
 WorkingSurface::Corners WorkingSurface::corners(std::size_t facet) const {
   const auto& node = facet_[facet].node;
   return {at(node[0]), at(node[1]), at(node[2])};

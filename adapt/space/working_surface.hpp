@@ -4,6 +4,7 @@
 #include "core/index.hpp"
 #include "voronoi/space/surface.hpp"
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -21,6 +22,10 @@ struct SurfaceRules {
   /// Pieces of which each is repeated by another: nodes on them come and go, but none moves, and what a
   /// change inside of one does to the volume is undone by its image.
   std::vector<PieceIndex> still{};
+
+  bool is_still(PieceIndex piece) const {
+    return std::find(still.begin(), still.end(), piece) != still.end();
+  }
 };
 
 /// Why the surface was left as it was.
@@ -78,7 +83,7 @@ public:
   double length(Edge e) const { return (at(end(e)) - at(start(e))).norm(); }
   bool held(NodeIndex i) const { return held_[i] != 0; }
   bool still(NodeIndex i) const { return still_[i] != 0; }
-  bool is_still(PieceIndex piece) const;
+  bool is_still(PieceIndex piece) const { return rules_.is_still(piece); }
   PieceIndex piece(Edge e) const { return facet_[index_of(e / 3)].piece; }
 
   /// Calls visit(edge) for the edges that leave a node, turning clockwise as seen from outside.

@@ -55,13 +55,10 @@ private:
 
 std::optional<ToolOverlap> overlap_at_start(const contact::ToolShape<3>& tool, const Cloud<3>& cloud,
                                             double allowed) {
-  Box<3> box{cloud.position.front(), cloud.position.front()};
-  for (const Vec3& x : cloud.position) {
+  for (const Vec3& x : cloud.position)
     if (const double distance = tool.closest(x).distance; distance < -allowed)
       return ToolOverlap{-distance, x};
-    box.low = box.low.cwiseMin(x);
-    box.high = box.high.cwiseMax(x);
-  }
+  Box<3> box = box_of<3>(cloud.position);
   const Box<3> own = tool.bounds();
   box.low = (box.low.array() + allowed).matrix().cwiseMax(own.low);
   box.high = (box.high.array() - allowed).matrix().cwiseMin(own.high);

@@ -7,10 +7,8 @@
 #include "core/error.hpp"
 #include "core/index.hpp"
 #include "voronoi/space/crossings.hpp"
-#include "voronoi/space/surface.hpp"
 
 #include <algorithm>
-#include <fmt/format.h>
 
 namespace cnem::app {
 namespace {
@@ -23,10 +21,8 @@ void refuse_crossings(const TriangleSurface& surface) {
   cloud.position.assign(surface.points.begin(), surface.points.end());
   for (const auto& [a, b, c] : surface.triangles)
     cloud.facets.push_back({{as<NodeIndex>(a), as<NodeIndex>(b), as<NodeIndex>(c)}, PieceIndex{}});
-  if (const auto pairs = voronoi::crossings(cloud); !pairs.empty())
-    throw GeometryError(fmt::format("the surface crosses itself: {} and {}",
-                                    voronoi::describe_facet(cloud, pairs[0][0]),
-                                    voronoi::describe_facet(cloud, pairs[0][1])));
+  if (const auto pair = voronoi::describe_crossing(cloud))
+    throw GeometryError("the surface crosses itself: " + *pair);
 }
 
 double reach_of(const Cloud<3>& cloud, const Vec3& from) {

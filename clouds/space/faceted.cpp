@@ -148,11 +148,9 @@ Cloud<3> divided_surface(const Faceted& shape) {
   if (!(enclosed_measure(surface) > 0.0))
     throw GeometryError("the surface is inside out: its facets run clockwise as seen from outside; expected "
                         "anticlockwise ones");
-  if (const auto pairs = voronoi::crossings(surface); !pairs.empty())
-    throw GeometryError(fmt::format("the surface crosses itself: {} and {}; expected facets that meet at "
-                                    "common edges only",
-                                    voronoi::describe_facet(surface, pairs[0][0]),
-                                    voronoi::describe_facet(surface, pairs[0][1])));
+  if (const auto pair = voronoi::describe_crossing(surface))
+    throw GeometryError(
+        fmt::format("the surface crosses itself: {}; expected facets that meet at common edges only", *pair));
   const Parts parts = parts_of(surface, across, shape.crease_angle);
   const auto names = names_of(parts, shape, FacetTree(surface));
   surface.piece_names.assign(names.begin(), names.end());

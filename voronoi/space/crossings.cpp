@@ -163,4 +163,10 @@ std::vector<std::array<CloudFacetIndex, 2>> crossings(const Cloud<3>& cloud,
   return found;
 }
 
+std::optional<std::string> describe_crossing(const Cloud<3>& cloud) {
+  const auto pairs = crossings(cloud);
+  if (pairs.empty()) return std::nullopt;
+  return describe_facet(cloud, pairs[0][0]) + " and " + describe_facet(cloud, pairs[0][1]);
+}
+
 } // namespace cnem::voronoi

@@ -3,6 +3,8 @@
 #include "core/geometry/cloud.hpp"
 
 #include <array>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace cnem::voronoi {
@@ -17,5 +19,8 @@ std::vector<std::array<CloudFacetIndex, 2>> crossings(const Cloud<3>& cloud);
 /// O(suspects · F).
 std::vector<std::array<CloudFacetIndex, 2>> crossings(const Cloud<3>& cloud,
                                                       const std::vector<CloudFacetIndex>& suspects);
+
+/// The first of them as "facet … and facet …", with positions; none where there is none.
+std::optional<std::string> describe_crossing(const Cloud<3>& cloud);
 
 } // namespace cnem::voronoi
