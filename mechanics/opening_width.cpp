@@ -18,13 +18,31 @@ double opening_width(const DiscreteOperators<2>& operators, const Field& x, std:
                       gradient.x() * operators.gradient[0][e] + gradient.y() * operators.gradient[1][e]);
   }
   std::sort(node.begin(), node.end());
-  double sum = 0.0, seen = 0.0; // from the last node backwards
-  for (std::size_t k = node.size(); k-- > 1;) {
-    seen += node[k].second;
-    sum += seen * seen * (node[k].first - node[k - 1].first);
+  /// f(what is seen of openings between a node and the one before it, how far these are apart).
+  const auto each = [&](auto&& f) {
+    double seen = 0.0;
+    for (std::size_t k = node.size(); k-- > 1;) {
+      seen += node[k].second;
+      f(seen, node[k].first - node[k - 1].first);
+    }
+  };
+  if (!operators.nodal) {
+    double squares = 0.0;
+    each([&](double seen, double apart) { squares += seen * seen * apart; });
+    assert(squares > 0.0);
+    return 1.0 / squares;
   }
-  assert(sum > 0.0);
-  return 1.0 / sum;
+  const double same = 1e-9 * (node.back().first - node.front().first); // places that differ by rounding
+  double most = 0.0, strip = 0.0;
+  each([&](double seen, double apart) {
+    if (apart > same) most = std::max(most, seen);
+  });
+  constexpr double least = 0.25;
+  each([&](double seen, double apart) {
+    if (seen >= least * most) strip += apart;
+  });
+  assert(strip > 0.0);
+  return strip;
 }
 
 } // namespace cnem

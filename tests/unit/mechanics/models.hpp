@@ -18,9 +18,9 @@ namespace cnem::testing {
 
 using namespace literals;
 
-enum class Method { cnem, triangles, sph, hybrid, efg };
+enum class Method { cnem, triangles, sph, hybrid, efg, mls };
 inline void PrintTo(Method method, std::ostream* out) {
-  const char* const names[] = {"cnem", "triangles", "sph", "hybrid", "efg"};
+  const char* const names[] = {"cnem", "triangles", "sph", "hybrid", "efg", "mls"};
   *out << names[static_cast<int>(method)];
 }
 
@@ -30,7 +30,9 @@ inline std::unique_ptr<Discretisation<2>> make(Method method, Space space = Spac
   if (method == Method::efg) return std::make_unique<methods::Efg>();
   if (method == Method::hybrid) // both kinds of functions in a jittered cloud of 1 mm
     return std::make_unique<methods::Hybrid>(1.1e-3, 2, space);
-  return std::make_unique<scni::Cnem>(scni::Options{.space = space});
+  scni::Options options{.space = space};
+  if (method == Method::mls) options.support = 2.5;
+  return std::make_unique<scni::Cnem>(options);
 }
 
 inline plasticity::Material steel() {

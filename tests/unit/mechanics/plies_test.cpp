@@ -184,8 +184,14 @@ TEST(Plies, bars_take_the_energy_of_the_mode_whatever_their_cells) {
     Bar bar = matrix_bar(cells, Lattice::square);
     bar.place = 0.0;
     EXPECT_NEAR(break_bar(bar).energy, 1e3, 50.0) << cells;
-    bar.lattice = Lattice::hexagonal;
+  }
+  for (const int cells : {10, 20, 40}) { // all four columns of cells that see the crack have to break
+    Bar bar = matrix_bar(cells, Lattice::hexagonal);
+    bar.opening = 6e-5;
+    bar.failure.criterion = FailureCriterion::max_stress;
     EXPECT_NEAR(break_bar(bar).energy, 1e3, 50.0) << cells;
+    bar.failure.criterion = FailureCriterion::hashin; // 0.93 to 0.98
+    EXPECT_NEAR(break_bar(bar).energy, 1e3, 80.0) << cells;
   }
 }
 
@@ -205,6 +211,8 @@ TEST(Plies, other_methods_take_the_energy_of_the_mode) {
     EXPECT_NEAR(break_bar(bar).energy, 1e3, 15.0) << cells;
     bar.method = Method::efg;
     EXPECT_NEAR(break_bar(bar).energy, 1e3, 80.0) << cells;
+    bar.method = Method::mls;
+    EXPECT_NEAR(break_bar(bar).energy, 1e3, 15.0) << cells;
   }
 }
 
