@@ -141,8 +141,10 @@ void read_elasticity(const Setting& table, const Setting& of, plasticity::Materi
     const Setting& key = *table.find("nu12");
     diagnostics.add(
         Mistake::range, key.where, key.path,
-        fmt::format("found {:g}, expected less than √(E1/E2) = {:.4g}: pulled plies would release energy",
-                    ply.nu12, std::sqrt(ply.E1 / ply.E2)));
+        fmt::format(
+            "found {:g}, expected between −√(E1/E2) and √(E1/E2) = {:.4g}: pulled plies would release "
+            "energy",
+            ply.nu12, std::sqrt(ply.E1 / ply.E2)));
   } else if (!ply.sound_in_space()) {
     const Setting& key = *table.find("nu23");
     diagnostics.add(
