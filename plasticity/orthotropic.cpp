@@ -1,6 +1,7 @@
 #include "plasticity/orthotropic.hpp"
 
 #include <cmath>
+#include <complex>
 
 namespace cnem::plasticity {
 
@@ -35,6 +36,24 @@ PlyConstants ply_constants(const Orthotropic& elastic, bool stress_free) {
   const double s11 = (1.0 - elastic.nu13 * out1) / E1, s22 = (1.0 - elastic.nu23 * out2) / E2,
                s12 = -(elastic.nu12 + elastic.nu13 * out2) / E1;
   return {1.0 / s11, 1.0 / s22, -s12 / s11, elastic.G12, {out1, out2}};
+}
+
+double crack_modulus(const PlyConstants& ply, double angle) {
+  using Complex = std::complex<double>;
+  const double S11 = 1.0 / ply.E1, S22 = 1.0 / ply.E2, both = 1.0 / ply.G12 - 2.0 * ply.nu12 / ply.E1;
+  const double half = 0.5 * both / S11;
+  const Complex apart = std::sqrt(Complex(half * half - S22 / S11));
+  const double c = std::cos(angle), s = std::sin(angle);
+  Complex sum = 0.0, product = 1.0;
+  for (const double sign : {1.0, -1.0}) {
+    Complex along_fibres = std::sqrt(-half + sign * apart);
+    if (along_fibres.imag() < 0.0) along_fibres = -along_fibres;
+    const Complex root = (along_fibres * c - s) / (c + along_fibres * s);
+    sum += root;
+    product *= root;
+  }
+  const double across = S11 * s * s * s * s + both * s * s * c * c + S22 * c * c * c * c; // compliance
+  return 2.0 / (across * std::abs((sum / product).imag()));
 }
 
 PlaneStiffness plane_stiffness(const Orthotropic& elastic, bool stress_free) {

@@ -107,6 +107,11 @@ struct PlyConstants {
 /// ν12' = −S'12/S'11 of the condensed compliance S'_ij = S_ij − S_i3 S_j3/S_33.
 PlyConstants ply_constants(const Orthotropic& elastic, bool stress_free);
 
+/// E' of a crack at `angle` from the fibres that is torn open, Pa: K²/E' is what it lets go per area (Sih,
+/// Paris and Irwin 1965, with the roots μ of S11 μ⁴ + (2 S12 + S66) μ² + S22 turned into the axes of the
+/// crack).
+double crack_modulus(const PlyConstants& ply, double angle);
+
 /// Stiffness of σxx, σyy, σxy over εxx, εyy, γxy in the axes of the model, Pa, of fibres at `elastic.angle`.
 struct PlaneStiffness {
   double D[3][3];

@@ -29,6 +29,8 @@ void doubt_edges(const input::Case& input, const ExplicitSolver<2>& solver, Doub
 /// The opening at which metal has broken and the length that damage is averaged over, beside the cells and
 /// the workpiece.
 void doubt_fracture(const input::Case& input, const ExplicitSolver<2>& solver, Doubts& doubts);
+/// Cohesive interfaces whose zone of softening has too few cells.
+void doubt_interfaces(const input::Case& input, const ExplicitSolver<2>& solver, Doubts& doubts);
 /// Parts that pass through each other.
 void doubt_parts(const input::Case& input, const ExplicitSolver<2>& solver, Doubts& doubts);
 

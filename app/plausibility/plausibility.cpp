@@ -63,6 +63,7 @@ std::vector<std::string> doubts(const input::Case& input, const ExplicitSolver<d
     doubt_pushes(input, solver, list);
     doubt_edges(input, solver, list);
     doubt_fracture(input, solver, list);
+    doubt_interfaces(input, solver, list);
     doubt_parts(input, solver, list);
   }
   return list;

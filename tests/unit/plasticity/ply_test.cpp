@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <complex>
 #include <random>
 
 namespace cnem::plasticity::test {
@@ -40,6 +41,41 @@ TEST(Ply, engineering_constants_off_its_axes) {
   // worked out beside: 1/Ex of the GFRP at 30, 45, 60°
   for (const auto& [a, Ex] : {std::pair(30.0, 9.03978e9), {45.0, 6.78815e9}, {60.0, 7.18125e9}})
     EXPECT_NEAR(1.0 / matrix(plane_stiffness(*gfrp(a * degrees).ply, true)).inverse()(0, 0), Ex, 1e-6 * Ex);
+}
+
+/// E' of a crack along x for the compliance of εxx, εyy, γxy, by the roots of Lekhnitskii's polynomial.
+double crack_modulus_by_eigenvalues(const Eigen::Matrix3d& S) {
+  Eigen::Matrix4d companion = Eigen::Matrix4d::Zero();
+  companion.block<3, 3>(1, 0).setIdentity();
+  companion.col(3) << -S(1, 1), 2 * S(1, 2), -(2 * S(0, 1) + S(2, 2)), 2 * S(0, 2);
+  companion.col(3) /= S(0, 0);
+  std::complex<double> sum = 0.0, product = 1.0;
+  const Eigen::Vector4cd roots = companion.eigenvalues();
+  for (const std::complex<double>& root : roots)
+    if (root.imag() > 0.0) sum += root, product *= root;
+  return 2.0 / (S(1, 1) * std::abs((sum / product).imag()));
+}
+
+TEST(Ply, moduli_of_cracks) {
+  const double E = 34e9, nu = 0.3;
+  EXPECT_NEAR(crack_modulus({E, E, nu, 0.5 * E / (1 + nu), {0, 0}}, 0.4), E, 1e-6 * E) << "isotropic";
+
+  for (const bool stress_free : {true, false}) {
+    const Orthotropic ply = *gfrp(0.0).ply;
+    const PlyConstants own = ply_constants(ply, stress_free);
+    const double S11 = 1 / own.E1, S22 = 1 / own.E2, both = 1 / own.G12 - 2 * own.nu12 / own.E1;
+    const double along = 1 / std::sqrt(0.5 * S11 * S22 * (std::sqrt(S22 / S11) + 0.5 * both / S11));
+    const double across = 1 / std::sqrt(0.5 * S11 * S22 * (std::sqrt(S11 / S22) + 0.5 * both / S22));
+    EXPECT_NEAR(crack_modulus(own, 0.0), along, 1e-9 * along) << "Sih, Paris and Irwin";
+    EXPECT_NEAR(crack_modulus(own, 90 * degrees), across, 1e-9 * across);
+    for (const double a : {17.0, 45.0, 80.0, 133.0}) { // of fibres that lie at −a to the crack
+      const double expected = crack_modulus_by_eigenvalues(
+          matrix(plane_stiffness(*gfrp(-a * degrees).ply, stress_free)).inverse());
+      EXPECT_NEAR(crack_modulus(own, a * degrees), expected, 1e-9 * expected) << a;
+      EXPECT_NEAR(crack_modulus(own, -a * degrees), expected, 1e-9 * expected) << a;
+      EXPECT_NEAR(crack_modulus(own, (a + 180) * degrees), expected, 1e-9 * expected) << a;
+    }
+  }
 }
 
 /// Compliance of ε11, ε22, ε33, γ12.
