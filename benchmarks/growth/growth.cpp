@@ -1,5 +1,6 @@
 // What a node costs from a thousand nodes to a million: time of a step, of a rebuild, memory. One command:
-//   build/growth [--cells plane|median|voronoi] [--to 1000000] [--threads N] [--output results/growth]
+//   build/growth [--cells plane|median|voronoi] [--to 1000000 | --sizes 20000 ...] [--threads N]
+//     [--output results/growth]
 // in the plane, or in space with median or Voronoi cells, writes growth.csv, growth.md and growth.svg. Each
 // size runs in a process of its own, whose peak memory it is. One thread is timed by its processor time,
 // which others on the machine disturb least, several by the wall.
@@ -128,7 +129,8 @@ report::Chart chart_of(const std::vector<Cost>& costs, const std::string& cells,
   return chart;
 }
 
-int run(const std::string& cells, int to, int threads, const std::filesystem::path& output) {
+int run(const std::string& cells, const std::vector<int>& sizes, int threads,
+        const std::filesystem::path& output) {
   if (threads == 0) threads = omp_get_max_threads();
   std::filesystem::create_directories(output);
   std::string csv = "nodes,threads,step[ns/(node step)],rebuild[ns/node],peak_memory[B/node]\n";
@@ -136,8 +138,7 @@ int run(const std::string& cells, int to, int threads, const std::filesystem::pa
       "| nodes | step, ns per node and step | rebuild, ns per node | peak memory, bytes per node |\n"
       "| --- | --- | --- | --- |\n";
   std::vector<Cost> costs;
-  for (const int nodes : {1000, 3000, 10000, 30000, 100000, 300000, 1000000}) {
-    if (nodes > to) continue;
+  for (const int nodes : sizes) {
     const std::optional<Cost> cost = measure_apart(cells, nodes, threads);
     if (!cost) return 1;
     costs.push_back(*cost);
@@ -162,15 +163,22 @@ int main(int argc, char** argv) {
   CLI::App program("Time of steps and rebuilds and memory per node, from a thousand nodes to a million",
                    "growth");
   int to = 1000000, threads = 0;
+  std::vector<int> sizes;
   std::string cells = "plane", output = "results/growth";
   program.add_option("--cells", cells, "plane, or in space median or voronoi")
       ->check(CLI::IsMember(measures()));
   program.add_option("--to", to, "largest number of nodes")->check(CLI::PositiveNumber);
+  program.add_option("--sizes", sizes, "these numbers of nodes")
+      ->check(CLI::PositiveNumber)
+      ->excludes("--to");
   program.add_option("--threads", threads, "number of threads (default: all)")->check(CLI::PositiveNumber);
   program.add_option("--output", output, "folder of results");
   CLI11_PARSE(program, argc, argv);
   try {
-    return run(cells, to, threads, output);
+    if (sizes.empty())
+      for (const int nodes : {1000, 3000, 10000, 30000, 100000, 300000, 1000000})
+        if (nodes <= to) sizes.push_back(nodes);
+    return run(cells, sizes, threads, output);
   } catch (const IoError& error) {
     fmt::print(stderr, "{}\n", error.what());
     return 4;
