@@ -5,6 +5,7 @@
 #include "core/error.hpp"
 #include "voronoi/linear_simplices.hpp"
 #include "voronoi/space/conduction.hpp"
+#include "voronoi/space/median_cells.hpp"
 #include "voronoi/space/triangulate.hpp"
 
 #include <fmt/format.h>
@@ -60,7 +61,8 @@ Approximation<3> CnemInSpace::rebuild(const Cloud<3>& cloud) {
     const auto of_cell = group_by_cell<FaceIndex>(
         cloud.position.size(),
         facets.facet.size(), [&](std::size_t f) -> const auto& { return facets.facet[f].cell; });
-    const FacesOfCells<3, Interface<3>> faces{cells.volume, facets.facet, of_cell, cells.boundary,
+    const auto boundary = voronoi::thirds_of_facets(cloud);
+    const FacesOfCells<3, Interface<3>> faces{cells.volume, facets.facet, of_cell, boundary,
                                               cells.neighbours};
     result.links = stabilisation_links(cloud, faces);
     result.mechanics = smoothed_gradients(cloud, faces, std::move(facets.means));

@@ -4,6 +4,7 @@
 #include "cnem/space.hpp"
 #include "tests/space_clouds.hpp"
 #include "voronoi/space/conduction.hpp"
+#include "voronoi/space/median_cells.hpp"
 #include "voronoi/space/triangulate.hpp"
 
 #include <benchmark/benchmark.h>
@@ -77,7 +78,8 @@ void smoothing_and_links(benchmark::State& state) {
       [&](scni::FaceMeans means_on_facets) {
         const auto of_cell = group_by_cell<FaceIndex>(
             cloud.position.size(), facet.size(), [&](std::size_t f) -> const auto& { return facet[f].cell; });
-        const scni::FacesOfCells<3, scni::Interface<3>> faces{cells.volume, facet, of_cell, cells.boundary,
+        const auto boundary = voronoi::thirds_of_facets(cloud);
+        const scni::FacesOfCells<3, scni::Interface<3>> faces{cells.volume, facet, of_cell, boundary,
                                                               cells.neighbours};
         return std::pair(scni::smoothed_gradients(cloud, faces, std::move(means_on_facets)),
                          scni::stabilisation_links(cloud, faces));

@@ -131,7 +131,6 @@ VoronoiCells voronoi_cells(const Cloud<3>& cloud, const Tetrahedra& mesh, const 
       throw GeometryError(
           "cells stay without volume wherever their points are put: nodes are on one plane to "
           "rounding");
-  cells.boundary = thirds_of_facets(cloud);
   return cells;
 }
 
@@ -146,7 +145,7 @@ void facet_polygon(const Cloud<3>& cloud, const VoronoiCells& cells, EdgeIndex e
 CellComplex<3> cell_complex(const Cloud<3>& cloud, const Tetrahedra& mesh, const VoronoiCells& cells) {
   CellComplex<3> complex;
   complex.volume = cells.volume;
-  complex.boundary = cells.boundary;
+  complex.boundary = thirds_of_facets(cloud);
   complex.neighbours = cells.neighbours;
   complex.interior.reserve(cells.rings.point.size());
   const std::size_t tetrahedra = mesh.node.size();

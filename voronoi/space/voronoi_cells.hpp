@@ -6,19 +6,18 @@
 namespace cnem::voronoi {
 
 /// Between the cells of the ends of an edge stands its facet: the fan of triangles from the middle of the
-/// edge to the dual points round it. With the parts of the boundary facets (from a corner over the middle of
-/// an edge to the dual point) they close every cell wherever the dual points are, and as these parts and all
-/// fans but those of the own edges lie in planes through the node,
+/// edge to the dual points round it. With the parts of the boundary facets (thirds_of_facets: from a corner
+/// over the middle of an edge to the dual point) they close every cell wherever the dual points are, and as
+/// these parts and all fans but those of the own edges lie in planes through the node,
 ///   V_i = Σ_edges of i ⅙ N_ij·(x_j − x_i),
 /// N the area vector of the fan. Σ V is the volume of the body.
 struct VoronoiCells {
   DualPoints points;
   EdgeRings rings;
-  IndexedVector<EdgeIndex, Vec<3>> normal;            ///< m², from the first end to the second
-  Field volume;                                       ///< [cell] m³
-  CellLists<EdgeIndex> edges;                         ///< of each cell
-  CellLists<NodeIndex> neighbours;                    ///< the other ends
-  IndexedVector<PartIndex, BoundaryPart<3>> boundary; ///< facet after facet
+  IndexedVector<EdgeIndex, Vec<3>> normal; ///< m², from the first end to the second
+  Field volume;                            ///< [cell] m³
+  CellLists<EdgeIndex> edges;              ///< of each cell
+  CellLists<NodeIndex> neighbours;         ///< the other ends
 };
 
 /// Dual points of cells with less than 0.15 of their share in the tetrahedra (a quarter of each) are drawn to
