@@ -116,6 +116,8 @@ private:
   void restore_columns();
   // References.
   void renew(Cloud<dim> cloud, const Resampling<dim>* change);
+  void release();
+  void regain();
   void share_velocities();
   void start_points();
   void start_flow_stress(std::size_t p);

@@ -39,6 +39,8 @@ public:
                 const Field& modulus, const Field& weight, const Ties<dim>& ties = {});
   /// The operators are others: x begins at 1 again.
   void forget() { share_.clear(); }
+  /// Lets go of what each bound makes anew.
+  void release() { transfer_ = inverse_ = image_ = Field(); }
 
   void archive(Archive& archive);
 

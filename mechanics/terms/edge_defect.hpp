@@ -40,6 +40,7 @@ public:
   std::vector<Energy*> energies() override { return {&stored_, &released_}; }
   void limit(const Body<dim>& body, StepLimit& limit) override;
   void start(const Body<dim>& body) override { reset(body.state.point.shear_modulus); }
+  void release() override { record_ = Field(); }
   void leave(const Body<dim>& body) override;
   void renew(const Body<dim>& body) override;
   void begin_stress(const Body<dim>& body, const DuePoints& due) override;

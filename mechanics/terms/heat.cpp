@@ -37,6 +37,8 @@ public:
     limit.heat = interval_.stable;
   }
 
+  void release() override { conduction_ = Conduction<dim>(); }
+
   void carried(const Body<dim>&) override { contacts_.clear(); }
 
   void renew(const Body<dim>&) override { interval_.stable = 0.0; }

@@ -119,6 +119,8 @@ public:
   // References
   /// Points are at rest, and fields have their size.
   virtual void start(const Body<dim>&) {}
+  /// A rebuild needs memory: lets go of what `attach` makes again. Until then no other hook reads it.
+  virtual void release() {}
   /// The old reference is about to be left.
   virtual void leave(const Body<dim>&) {}
   /// Matter comes and goes with a change of the cloud (Resampling::open); the fields are those before it.
@@ -129,7 +131,7 @@ public:
   virtual void stressed(const Body<dim>&, Booked&) {}
   /// Operators and stresses are those of a new reference.
   virtual void renew(const Body<dim>&) {}
-  /// The same, or a checkpoint has been read.
+  /// The same, or a checkpoint has been read, or there is no new reference after `release`.
   virtual void attach(const Body<dim>&) {}
   /// The levels of points are set.
   virtual void set_levels(const Body<dim>&) {}
