@@ -3,6 +3,7 @@
 #include "app/divergence.hpp"
 #include "app/forecast/blanking_bands.hpp"
 #include "app/forecast/shear_plane.hpp"
+#include "app/forecast/step_costs.hpp"
 #include "app/forecast/wanted_nodes.hpp"
 #include "app/plausibility/list.hpp"
 #include "app/tool_tips.hpp"
@@ -90,17 +91,21 @@ double usual_step(const Model<2>& model, double spacing, double safety) {
 
 /// Of a node and step, s: of one thread on an idle core, from the runs of docs/cutting.md;
 /// docs/performance.md has the parts.
-double cost_of_steps(const input::Case& input, int dim) {
-  if (dim == 2) return (input.contact.active ? 115.0 : 90.0) * 1e-9;
+template<int dim> double cost_of_steps(const input::Case& input, const ExplicitSolver<dim>& solver) {
+  if constexpr (dim == 2)
+    return (input.contact.active ? 115.0 : 90.0) * 1e-9 + added_cost_of_steps(input, solver);
   return (input.contact.active ? 500.0 : input.tools.empty() ? 130.0 : 360.0) * 1e-9;
 }
 
 /// The same of passes, over the steps there would be with masses as they are: they come by the strain, the
 /// rarer the more of it a reference bears, which longer steps do not change.
-double cost_of_passes(const input::Case& input, int dim) {
+template<int dim> double cost_of_passes(const input::Case& input, const ExplicitSolver<dim>& solver) {
   if (!input.adapt.resample || (dim == 3 && input.tools.empty())) return 0.0;
   const double strain = input.method.rereference_strain;
-  return (strain > 0.0 ? (dim == 2 ? 6.7 : 29.0) / strain : dim == 2 ? 30.0 : 130.0) * 1e-9;
+  const double cost = (strain > 0.0 ? (dim == 2 ? 6.7 : 29.0) / strain : dim == 2 ? 30.0 : 130.0) * 1e-9;
+  if constexpr (dim == 2)
+    if (leaves_debris(input, solver)) return step_costs::passes_of_debris * cost;
+  return cost;
 }
 
 /// By how much steps get shorter in space while tools go on, whose cells passes there keep less even than in
@@ -254,14 +259,13 @@ Forecast forecast(const input::Case& input, const ExplicitSolver<dim>& solver, c
   if (course.empty())
     course = {{input.time.end, expected.finest, 0.5 * (expected.nodes_first + expected.nodes_last)}};
   const Steps steps(input, solver, control, spacing);
+  const double cost = cost_of_steps(input, solver), passes = cost_of_passes(input, solver);
   double node_steps = 0.0;
   for (const Stretch& stretch : course) {
     const double step = steps.of(stretch.spacing), taken = squeezed * stretch.duration / step;
     expected.steps += taken;
     node_steps += taken * stretch.nodes;
-    expected.seconds +=
-        taken * stretch.nodes *
-        (cost_of_steps(input, dim) + step / steps.light(stretch.spacing) * cost_of_passes(input, dim));
+    expected.seconds += taken * stretch.nodes * (cost + step / steps.light(stretch.spacing) * passes);
   }
   expected.nodes_mean = node_steps / expected.steps;
   expected.steps = std::ceil(expected.steps);
