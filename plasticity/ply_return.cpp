@@ -87,23 +87,34 @@ PlyReturn::PlyReturn(const Orthotropic& elastic, const HillCoefficients& yield, 
   all_ = modes(normal_);
 }
 
-PlyReturn::Modes PlyReturn::modes(const Normals& normal) const {
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Normals> solver(normal, compliance_);
+template<int n> PlyReturn::Modes PlyReturn::modes_of(const Normals& normal) const {
+  using Matrix = Eigen::Matrix<double, n, n>;
+  const Eigen::LLT<Matrix> root(compliance_);
+  Matrix own = root.matrixL().solve(Matrix(normal));
+  own = root.matrixL().solve(own.transpose().eval());
+  Eigen::SelfAdjointEigenSolver<Matrix> solver;
+  if constexpr (n == 2)
+    solver.computeDirect(own);
+  else
+    solver.compute(own);
+  const Matrix vectors = root.matrixU().solve(solver.eigenvectors()),
+               strains = root.matrixL() * solver.eigenvectors();
+  const double greatest = solver.eigenvalues()[n - 1];
   Modes made;
-  made.count = static_cast<int>(normal.rows()) + 1;
-  for (int k = 0; k + 1 < made.count; ++k) {
+  made.count = n + 1;
+  for (int k = 0; k < n; ++k) {
     const double value = solver.eigenvalues()[k];
-    made.value[k] = value > rounding * solver.eigenvalues().maxCoeff() ? value : 0.0; // that of a mean stress
-    const auto strain = (compliance_ * solver.eigenvectors().col(k)).eval();
-    for (int i = 0; i + 1 < made.count; ++i) {
-      made.vector[k][i] = solver.eigenvectors()(i, k);
-      made.strain[k][i] = strain[i];
-    }
+    made.value[k] = value > rounding * greatest ? value : 0.0; // that of a mean stress
+    for (int i = 0; i < n; ++i) made.vector[k][i] = vectors(i, k), made.strain[k][i] = strains(i, k);
   }
-  made.value[made.count - 1] = shear_ * shear_modulus_;
-  made.vector[made.count - 1][shear_place] = std::sqrt(shear_modulus_);
-  made.strain[made.count - 1][shear_place] = 1.0 / std::sqrt(shear_modulus_);
+  made.value[n] = shear_ * shear_modulus_;
+  made.vector[n][shear_place] = std::sqrt(shear_modulus_);
+  made.strain[n][shear_place] = 1.0 / std::sqrt(shear_modulus_);
   return made;
+}
+
+PlyReturn::Modes PlyReturn::modes(const Normals& normal) const {
+  return stress_free_ ? modes_of<2>(normal) : modes_of<3>(normal);
 }
 
 PlyReturn::Result PlyReturn::solve(const Modes& modes, const double (&trial)[4], const StepFlow* flow) {

@@ -59,6 +59,7 @@ private:
     double strain[4][4] = {}; ///< S v_k
   };
   Modes modes(const Normals& normal) const;
+  template<int n> Modes modes_of(const Normals& normal) const;
   static Result solve(const Modes& modes, const double (&trial)[4], const StepFlow* flow);
 
   bool stress_free_;
