@@ -1,6 +1,7 @@
 #include "contact/contact.hpp"
 
 #include "contact/contact_parts.hpp"
+#include "contact/sweeper.hpp"
 #include "core/error.hpp"
 #include "core/index.hpp"
 
@@ -38,7 +39,9 @@ template<int dim>
 void RigidContact<dim>::set_boundary(const std::vector<Facet<dim>>& facets, std::size_t nodes,
                                      const std::vector<NodeConstraint<dim>>& constraints,
                                      IndexedSpan<NodeIndex, const std::int32_t> group) {
-  surface_ = Surface<dim>(facets, nodes);
+  Surface<dim> surface(facets, nodes);
+  if (surface.node != surface_.node || surface.facets != surface_.facets) kept_.clear();
+  surface_ = std::move(surface);
   if (law_.active) bodies_.set_boundary(surface_, group);
   const std::size_t n = surface_.node.size();
   free_.assign(n, Mat<dim>::Identity());
@@ -103,18 +106,21 @@ template<int dim> void RigidContact<dim>::correct(const ContactStep<dim>& step) 
     move(poses, step.dt);
     near_.look(surface_, tools_, poses, end_, taken_);
   }
-  double deepest = 0.0; // m; in space, where images of a contact bear one load, so far in the step
+  deepest_ = 0.0;
   for (int pass = 0; pass < passes; ++pass) {
     from_earlier_passes_ = contacts_.size();
+    first_pass_ = pass == 0;
     const bool faces = find_on_faces(poses, step), ridges = find_on_ridges(poses, step),
                bodies = find_on_bodies(poses, step);
     if (!faces && !ridges && !bodies) break;
+    if (first_pass_) begin_with_kept(step);
     const double depth =
-        solver_.solve(contacts_, reactions_, tool_reactions_, step.dt, 1e-16 * size_, sweeps, deepest);
-    if constexpr (dim == 3) deepest = depth;
+        solver_.solve(contacts_, reactions_, tool_reactions_, step.dt, 1e-16 * size_, sweeps, deepest_);
+    if constexpr (dim == 3) deepest_ = depth;
     move(poses, step.dt);
     near_.look(surface_, tools_, poses, end_, taken_);
   }
+  kept_.keep(contacts_, step.dt_mean, ImpulseSolver<dim>::rest_of_swept * deepest_);
   share_out(contacts_, twins_, step.mass);
   share_out(answered_, answered_twins_, step.mass);
   contacts_.insert(contacts_.end(), answered_.begin(), answered_.end());
@@ -127,6 +133,35 @@ template<int dim> void RigidContact<dim>::correct(const ContactStep<dim>& step) 
     add_sub_step(step.dt_mean);
   else
     merge_touches();
+}
+
+/// Whether a contact that bore nothing in the last step, of nodes that bore by others, need not be solved
+/// for: in the first pass it may not have to bear now, in later ones it overlaps by no more than sweeps
+/// leave. Where nodes are tied it is one that bears for several.
+template<int dim> bool RigidContact<dim>::waits(const Contact<dim>& contact, double missing) {
+  if (kept_.empty() || !kept_.covers(contact)) return false;
+  for (std::size_t a = 0; a < Contact<dim>::slots; ++a)
+    if (contact.weight[a] != 0.0 && exists(tied_[contact.node[a]].first)) return false;
+  if (!first_pass_) return missing <= ImpulseSolver<dim>::rest_of_swept * deepest_;
+  if (kept_.find(contact)) return false;
+  deepest_ = std::max(deepest_, missing);
+  return true;
+}
+
+/// Gives contacts what they bore in the last step.
+template<int dim> void RigidContact<dim>::begin_with_kept(const ContactStep<dim>& step) {
+  if (kept_.empty()) return;
+  Reaction<dim> none;
+  for (Contact<dim>& contact : contacts_) {
+    const Contact<dim>* const kept = kept_.find(contact);
+    Sweeper<dim> sweeper(contact, reactions_, exists(contact.tool) ? tool_reactions_[contact.tool] : none,
+                         step.dt);
+    if (!kept || sweeper.along(contact.normal) == 0.0) continue; // what is held now never lets go of it
+    deepest_ = std::max(deepest_, -gap(contact, step.dt));
+    contact.swept = true;
+    const Vec<dim> sliding = kept->sliding - kept->sliding.dot(contact.normal) * contact.normal;
+    sweeper.set(step.dt_mean * kept->pressing, step.dt_mean * sliding);
+  }
 }
 
 /// Takes nodes and tools to where the impulses found so far bring them.
@@ -188,10 +223,12 @@ bool RigidContact<dim>::add(Contact<dim> contact, double start, double level, co
   contact.level = level;
   if (start < 0.0) {
     const double speed = std::max(pose.recovery, 0.5 * (mean(before_) - pose.before).norm());
-    contact.level += std::min(0.0, start + step.dt * speed);
+    const double left = kept_.covers(contact) ? kept_.left() : 0.0; // else what sweeps leave would add up
+    contact.level += std::min(0.0, start + std::max(step.dt * speed, left));
   }
   double missing = contact.level - contact.normal.dot(mean(end_));
   if (missing <= 0.0) return false;
+  if (waits(contact, missing)) return first_pass_;
   if (exists(contact.tool))
     contact.level -= step.dt * contact.normal.dot(tool_reactions_[contact.tool].change);
   const auto earlier = contacts_.begin() + static_cast<std::ptrdiff_t>(from_earlier_passes_);
@@ -213,7 +250,8 @@ bool RigidContact<dim>::add(Contact<dim> contact, double start, double level, co
     if (std::none_of(twins_.begin(), twins_.end(), [&](const Twin& t) { return is_same(t.contact); }))
       rubs_anew = join(*known, contact, *twin, twins_, step.mass);
   }
-  if (missing <= 1e-14 * size_) return rubs_anew;
+  const double rest = known->swept ? ImpulseSolver<dim>::rest_of_swept * deepest_ : 0.0;
+  if (missing <= std::max(1e-14 * size_, rest)) return rubs_anew;
   known->level += missing;
   return true;
 }

@@ -2,6 +2,7 @@
 // Kinematic predictor-corrector contact of the workpiece with rigid tools and with itself.
 #include "contact/body_contact.hpp"
 #include "contact/impulse_solver.hpp"
+#include "contact/kept_impulses.hpp"
 #include "contact/near_tools.hpp"
 #include "contact/surface.hpp"
 #include "contact/tool_motions.hpp"
@@ -218,6 +219,8 @@ private:
   bool find_on_ridges(const Poses<dim>& poses, const ContactStep<dim>& step);
   bool find_on_edges(const Pose<dim>& rest, const ContactStep<dim>& step) requires(dim == 3);
   bool find_on_bodies(const Poses<dim>& poses, const ContactStep<dim>& step);
+  bool waits(const Contact<dim>& contact, double missing);
+  void begin_with_kept(const ContactStep<dim>& step);
   bool add(Contact<dim> contact, double start, double level, const Pose<dim>& pose,
            const ContactStep<dim>& step);
   struct Twin;
@@ -280,7 +283,10 @@ private:
   };
   std::vector<Twin> twins_, answered_twins_; ///< of contacts_, of answered_
   ImpulseSolver<dim> solver_;
+  KeptImpulses<dim> kept_;
   std::size_t from_earlier_passes_ = 0; ///< how many of them
+  bool first_pass_ = false;
+  double deepest_ = 0.0; ///< m, in space, where images of a contact bear one load, so far in the step
 
   IndexedVector<ToolIndex, ToolResult<dim>> results_;
   BodyResult<dim> body_result_;

@@ -200,6 +200,7 @@ template<int dim> void RigidContact<dim>::archive(Archive& archive) {
   }
   if (!law_.active) return;
   bodies_.archive(archive, surface_);
+  if constexpr (dim == 3) kept_.archive(archive);
   archive.number("solver/body_contact/size", "m", size_);
   archive.number("solver/body_contact/pressing", "N/m", body_result_.pressing);
   archive.number("solver/body_contact/energy/workpiece", "J/m", body_result_.total.workpiece);

@@ -54,6 +54,15 @@ double shift_tool(std::vector<Contact<dim>>& contacts, std::span<const std::int3
   return moved;
 }
 
+/// Marks a group in space where bodies touch bodies; false where it is none.
+template<int dim>
+bool leave_to_sweeps(std::vector<Contact<dim>>& contacts, std::span<const std::int32_t> group) {
+  const auto between_bodies = [&](std::int32_t c) { return !exists(contacts[index_of(c)].tool); };
+  if (dim == 2 || std::none_of(group.begin(), group.end(), between_bodies)) return false;
+  for (const std::int32_t c : group) contacts[index_of(c)].swept = true;
+  return true;
+}
+
 } // namespace
 
 template<int dim> double Contact<dim>::strength(double at) const {
@@ -88,16 +97,17 @@ double ImpulseSolver<dim>::solve(std::vector<Contact<dim>>& contacts, ReactionsO
       depth = std::max(depth, -sweeper(c).gap());
       mobility_.push_back(sweeper(c).along(contacts[index_of(c)].normal));
     }
+    sideways_.assign(group.size(), -1.0);
     deepest = std::max(deepest, depth);
     const double measure = std::max(depth, known_depth);
-    const double least = std::max(tolerance, relative * measure);
+    double least = std::max(tolerance, relative * measure);
     int next = sweeps_before;
     for (int sweep = 1; sweep <= sweeps; ++sweep) {
       double moved = 0.0;
       for (std::size_t i = 0; i < group.size(); ++i) {
         Sweeper<dim> one = sweeper(group[i]);
         moved = std::max(moved, one.press(mobility_[i]));
-        moved = std::max(moved, one.rub());
+        moved = std::max(moved, one.rub(sideways_[i]));
       }
       for (const ToolIndex t : tools.indices())
         if (!tools[t].inverse.isZero(0.0))
@@ -106,6 +116,11 @@ double ImpulseSolver<dim>::solve(std::vector<Contact<dim>>& contacts, ReactionsO
       if (sweep == next) {
         const auto outcome = system_.settle(contacts, group, nodes, tools, dt, depth, measure);
         next = outcome == ContactSystem<dim>::Outcome::costly ? 0 : 3 * next;
+        if (next == 0 && leave_to_sweeps(contacts, group)) {
+          least = std::max(least, rest_of_swept * measure);
+          for (std::size_t i = 0; i < group.size(); ++i)
+            if (sweeper(group[i]).isotropic()) sideways_[i] = mobility_[i];
+        }
       }
     }
   }

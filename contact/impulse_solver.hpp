@@ -17,8 +17,13 @@ namespace cnem::contact {
 /// and sticks but converges slowly where contacts nearly coincide; a linear system for those found
 /// (contact/contact_system.hpp) takes them to the solution, and one more sweep shows that it is one. Where it
 /// is not, as between tools that leave a node no room, sweeps go on.
+///
+/// In space groups of bodies on bodies with a wide band (faces that lie on each other) are left to sweeps and
+/// marked as such (Contact::swept).
 template<int dim> class ImpulseSolver {
 public:
+  static constexpr double rest_of_swept = 1e-4; ///< of the depth: what these may still move by
+
   /// Solves in place: contacts get their impulses, nodes and tools their change of velocity, starting from
   /// what they have. Contacts that feel each other are done when a sweep moves none of them by more than
   /// `tolerance` (m) or 1e-9 of how deep the deepest was, at the latest after `sweeps`. Where many nodes
@@ -35,6 +40,7 @@ private:
   ContactGroups<dim> groups_;
   ContactSystem<dim> system_;
   std::vector<double> mobility_; ///< 1/kg, of the contacts of a group along their normals
+  std::vector<double> sideways_; ///< 1/kg, along their surfaces where the group is swept; < 0: not known
 };
 
 extern template class ImpulseSolver<2>;

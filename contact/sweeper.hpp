@@ -37,12 +37,14 @@ public:
     return press_by(-gap() / (dt_ * mobility)) * dt_ * mobility;
   }
 
-  double rub() {
+  /// mobility_of_all: along the surface, where it is the same in all directions; else < 0.
+  double rub(double mobility_of_all = -1.0) {
     const double strength = contact_.strength();
     if (strength <= 0.0 && contact_.sliding.squaredNorm() == 0.0) return 0.0;
     const Vec<dim> slip = this->slip();
     const double speed = slip.norm();
-    const double mobility = speed > 0.0 ? along(slip / speed) : 0.0;
+    double mobility = mobility_of_all;
+    if (mobility < 0.0) mobility = speed > 0.0 ? along(slip / speed) : 0.0;
     Vec<dim> wanted = contact_.sliding;
     if (mobility > 0.0) wanted -= slip / mobility;
     const double length = wanted.norm();

@@ -1,5 +1,6 @@
 // Bodies on bodies in space: nodes on facets, edges across edges, momentum, and what only looks near.
 #include "contact/swept_shape.hpp"
+#include "core/fields/memory_archive.hpp"
 #include "space_masses.hpp"
 #include "space_shapes.hpp"
 
@@ -62,6 +63,32 @@ SpaceMasses renumbered(const SpaceMasses& scene, unsigned seed) {
   const auto at = [&](NodeIndex i) { return now[index_of(i)]; };
   for (const Facet<3>& f : scene.facets) made.facet(at(f.node[0]), at(f.node[1]), at(f.node[2]));
   return made;
+}
+
+/// Two blocks, the upper one turned about the vertical, whose faces meet; the lower one has the first nodes
+/// and facets.
+SpaceMasses stack() {
+  SpaceMasses scene = space_block({5, 5, 3}, 0.25, {-0.5, -0.5, -0.5}, 400.0, 1.0);
+  append(scene, space_block({4, 4, 3}, 0.25, {-0.375, -0.375, 0.0}, 400.0, 1.0),
+         rotation_about({0, 0, 1}, 0.3), {0.0, 0.0, 1e-5}, {0.05, 0.0, -0.2});
+  scene.start({}, BodyContactLaw{true, Coulomb{0.2}});
+  return scene;
+}
+
+/// What contact takes from one step to the next, for loading.
+void take_state(SpaceMasses& scene, MemoryArchive& state) {
+  state.clear();
+  scene.contact->archive(state);
+  state.recall();
+}
+
+/// N, of the contacts that begin with them in the next step: normal forces and frictions, four numbers each.
+std::vector<double> kept_forces(SpaceMasses& scene) {
+  MemoryArchive state;
+  take_state(scene, state);
+  std::vector<double> force;
+  state.list("solver/body_contact/kept/force", "N/m", force);
+  return force;
 }
 
 } // namespace
@@ -192,4 +219,61 @@ TEST(SpaceBodies, sides_of_a_thin_body_slide_along_each_other_untouched) {
   scene.start({}, BodyContactLaw{true, Coulomb{0.0}});
   for (int i = 0; i < 40; ++i) scene.step(1e-3);
   EXPECT_EQ(scene.contact->body_result().total.workpiece, 0.0);
+}
+
+TEST(SpaceBodies, faces_on_each_other_bear_by_few_of_their_pairs_and_do_not_sink_in) {
+  SpaceMasses scene = stack();
+  const std::size_t own = space_block({5, 5, 3}, 0.25, {0, 0, 0}, 0.0, 0.0).facets.size();
+  const int nodes = 5 * 5 * 3;
+  const Vec3 momentum = scene.momentum();
+  std::size_t bearing = 0, steps = 0;
+  for (int i = 0; i < 300; ++i) {
+    scene.step(5e-4);
+    const std::vector<double> force = kept_forces(scene);
+    if (force.empty()) continue;
+    ++steps;
+    bearing = std::max(bearing, force.size() / 4);
+    double sum = 0.0;
+    for (std::size_t c = 0; c < force.size(); c += 4) {
+      ASSERT_GT(force[c], 0.0);
+      ASSERT_LE(Vec3(force[c + 1], force[c + 2], force[c + 3]).norm(), 0.2 * force[c] * (1.0 + 1e-9));
+      sum += force[c];
+    }
+    ASSERT_NEAR(sum, scene.contact->body_result().pressing, 1e-9 * sum);
+    for (int n = 0; n < nodes; ++n)
+      ASSERT_FALSE(encloses(scene, own, scene.facets.size(), scene.position(n))) << n << " at step " << i;
+    for (int n = nodes; n < scene.nodes(); ++n)
+      ASSERT_FALSE(encloses(scene, 0, own, scene.position(n))) << n << " at step " << i;
+  }
+  EXPECT_GE(steps, 100u);
+  EXPECT_GE(bearing, 10u);
+  EXPECT_LE(bearing, 60u) << "of some 100 pairs";
+  EXPECT_LT((scene.momentum() - momentum).norm(), 1e-12);
+  const ContactWork work = scene.contact->body_result().total;
+  EXPECT_NEAR(work.workpiece, work.recovery - work.friction - work.impact, 1e-12);
+  EXPECT_LT(work.recovery, 0.01 * work.impact);
+}
+
+TEST(SpaceBodies, faces_on_each_other_go_on_to_the_bit_from_what_was_kept) {
+  SpaceMasses scene = stack();
+  for (int i = 0; i < 100; ++i) scene.step(5e-4);
+  ASSERT_FALSE(kept_forces(scene).empty());
+  SpaceMasses again = scene, anew = scene;
+  MemoryArchive state;
+  take_state(scene, state);
+  again.start({}, BodyContactLaw{true, Coulomb{0.2}});
+  again.contact->archive(state);
+  anew.start({}, BodyContactLaw{true, Coulomb{0.2}});
+  bool differs = false;
+  for (int i = 0; i < 20; ++i) {
+    scene.step(5e-4);
+    again.step(5e-4);
+    anew.step(5e-4);
+    for (std::size_t k = 0; k < 3; ++k) {
+      ASSERT_EQ(scene.x[k], again.x[k]) << i;
+      ASSERT_EQ(scene.v[k], again.v[k]) << i;
+      differs = differs || scene.v[k] != anew.v[k];
+    }
+  }
+  EXPECT_TRUE(differs) << "what is kept matters";
 }
