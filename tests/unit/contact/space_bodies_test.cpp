@@ -226,28 +226,25 @@ TEST(SpaceBodies, faces_on_each_other_bear_by_few_of_their_pairs_and_do_not_sink
   const std::size_t own = space_block({5, 5, 3}, 0.25, {0, 0, 0}, 0.0, 0.0).facets.size();
   const int nodes = 5 * 5 * 3;
   const Vec3 momentum = scene.momentum();
-  std::size_t bearing = 0, steps = 0;
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < 30; ++i) { // later they part
     scene.step(5e-4);
     const std::vector<double> force = kept_forces(scene);
-    if (force.empty()) continue;
-    ++steps;
-    bearing = std::max(bearing, force.size() / 4);
+    ASSERT_GE(force.size() / 4, 15u) << "at step " << i;
+    ASSERT_LE(force.size() / 4, 30u) << "of some 100 pairs, at step " << i;
     double sum = 0.0;
     for (std::size_t c = 0; c < force.size(); c += 4) {
       ASSERT_GT(force[c], 0.0);
       ASSERT_LE(Vec3(force[c + 1], force[c + 2], force[c + 3]).norm(), 0.2 * force[c] * (1.0 + 1e-9));
       sum += force[c];
     }
-    ASSERT_NEAR(sum, scene.contact->body_result().pressing, 1e-9 * sum);
+    const double pressing = scene.contact->body_result().pressing;
+    ASSERT_GE(sum, 0.95 * pressing) << "but for what is alone at the rim, at step " << i;
+    ASSERT_LE(sum, (1.0 + 1e-9) * pressing);
     for (int n = 0; n < nodes; ++n)
       ASSERT_FALSE(encloses(scene, own, scene.facets.size(), scene.position(n))) << n << " at step " << i;
     for (int n = nodes; n < scene.nodes(); ++n)
       ASSERT_FALSE(encloses(scene, 0, own, scene.position(n))) << n << " at step " << i;
   }
-  EXPECT_GE(steps, 100u);
-  EXPECT_GE(bearing, 10u);
-  EXPECT_LE(bearing, 60u) << "of some 100 pairs";
   EXPECT_LT((scene.momentum() - momentum).norm(), 1e-12);
   const ContactWork work = scene.contact->body_result().total;
   EXPECT_NEAR(work.workpiece, work.recovery - work.friction - work.impact, 1e-12);
@@ -256,7 +253,7 @@ TEST(SpaceBodies, faces_on_each_other_bear_by_few_of_their_pairs_and_do_not_sink
 
 TEST(SpaceBodies, faces_on_each_other_go_on_to_the_bit_from_what_was_kept) {
   SpaceMasses scene = stack();
-  for (int i = 0; i < 100; ++i) scene.step(5e-4);
+  for (int i = 0; i < 10; ++i) scene.step(5e-4);
   ASSERT_FALSE(kept_forces(scene).empty());
   SpaceMasses again = scene, anew = scene;
   MemoryArchive state;
