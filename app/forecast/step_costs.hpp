@@ -21,7 +21,7 @@ inline constexpr double planes_ply = 430e-9; ///< the same: with LaRC02, which s
 inline constexpr double run = 320e-9;       ///< isotropic
 inline constexpr double sheet_run = 550e-9; ///< the same without stress out of the plane
 inline constexpr double ply_run = 50e-9;
-inline constexpr double flowing_ply_run = 450e-9;
+inline constexpr double flowing_ply_run = 250e-9;
 inline constexpr double bond = 130e-9;   ///< an element of a cohesive interface
 inline constexpr double debris = 130e-9; ///< a node, contact of bodies that come off at interfaces
 /// –, passes of such bodies, each of which is triangulated for itself, over those of one.
