@@ -6,16 +6,19 @@
 
 namespace cnem {
 
+template<int dim> void DiscreteOperators<dim>::begin_columns() {
+  col_begin.assign(index_of(nodes) + 1, 0);
+  for (const NodeIndex j : node) ++col_begin[index_of(j) + 1];
+  for (std::size_t j = 0; j < index_of(nodes); ++j) col_begin[j + 1] += col_begin[j];
+}
+
 template<int dim> void DiscreteOperators<dim>::build_transpose() {
   const std::size_t entries = node.size();
   assert(row_begin.size() == index_of(points) + 1 && index_of(row_begin.back()) == entries);
   assert(volume.size() == index_of(points) && (value.empty() || value.size() == entries));
   assert(std::all_of(node.begin(), node.end(),
                      [&](NodeIndex j) { return exists(j) && j < as<NodeIndex>(nodes); }));
-  col_begin.assign(index_of(nodes) + 1, 0);
-  for (const NodeIndex j : node) ++col_begin[index_of(j) + 1];
-  for (std::size_t j = 0; j < index_of(nodes); ++j) col_begin[j + 1] += col_begin[j];
-
+  begin_columns();
   point.resize(entries);
   for (Field& f : weighted_gradient) f.resize(entries);
   weighted_value.resize(value.size());

@@ -55,6 +55,8 @@ template<int dim> struct DiscreteOperators {
 
   /// Fills the transpose from the rows. To be called once the rows are complete.
   void build_transpose();
+  /// Of the transpose `col_begin` alone.
+  void begin_columns();
 
   /// Σ_p V_p N_pJ, the share of the volume each node carries: ρ times it is the lumped mass. m² or m³.
   Field node_volume() const;

@@ -10,6 +10,8 @@
 #include <cassert>
 #include <cmath>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 namespace cnem::voronoi {
 namespace {
@@ -48,63 +50,79 @@ IndexedVector<SimplexIndex, SimplexIndex> partners(const Cloud<3>& cloud, const 
   return partner;
 }
 
-} // namespace
+/// Tetrahedra by the rows that they are in.
+struct Groups {
+  std::vector<double> volume;       ///< [tetrahedron] m³
+  std::vector<SimplexIndex> alone;  ///< in rows of their own, which come first
+  CellLists<SimplexIndex> together; ///< flat ones with what they are taken together with
 
-DiscreteOperators<3> linear_tetrahedra(const Cloud<3>& cloud, const Tetrahedra& mesh) {
-  std::vector<double> volume;
-  const auto partner = partners(cloud, mesh, volume);
-  if (partner.empty()) return linear_simplices<3>(cloud, mesh.node);
+  std::size_t joined() const { return together.begin.size() - 1; }
+};
 
-  std::vector<std::uint8_t> joined(mesh.node.size());
-  for (const SimplexIndex t : mesh.node.indices())
-    if (partner[t] != t) joined[index_of(partner[t])] = 1;
-  std::vector<SimplexIndex> roots; // those that are alone come first
-  IndexedVector<SimplexIndex, std::int32_t> point(mesh.node.size());
-  for (const int with_others : {0, 1})
-    for (const SimplexIndex t : mesh.node.indices())
-      if (partner[t] == t && joined[index_of(t)] == with_others) {
-        point[t] = as<std::int32_t>(roots.size());
-        roots.push_back(t);
-      }
-  const auto members = group_by_cell<SimplexIndex>(roots.size(), mesh.node.size(), [&](std::size_t t) {
-    return std::array{as<NodeIndex>(point[partner[t]])}; // lists of points in place of cells
+Groups grouped(const Cloud<3>& cloud, const Tetrahedra& mesh) {
+  const std::size_t count = mesh.node.size();
+  Groups groups;
+  const auto partner = partners(cloud, mesh, groups.volume);
+  const auto root = [&](SimplexIndex t) { return partner.empty() ? t : partner[t]; };
+  constexpr NodeIndex alone = NodeIndex::none, shared = as<NodeIndex>(0);
+  IndexedVector<SimplexIndex, NodeIndex> list(count, alone); // of roots, in place of cells
+  for (const SimplexIndex t : list.indices())
+    if (root(t) != t) list[root(t)] = shared;
+  std::size_t lists = 0;
+  groups.alone.reserve(count);
+  for (const SimplexIndex t : list.indices()) {
+    if (root(t) != t) continue;
+    if (!(groups.volume[index_of(t)] > 0.0))
+      linear_simplices<3>(cloud, std::span(&mesh.node[t], 1)); // throws, and says where
+    if (list[t] == shared)
+      list[t] = as<NodeIndex>(lists++);
+    else
+      groups.alone.push_back(t);
+  }
+  groups.together = group_by_cell<SimplexIndex>(lists, count, [&](std::size_t t) {
+    const NodeIndex& of = list[root(as<SimplexIndex>(t))];
+    return std::span(&of, exists(of) ? 1 : 0);
   });
+  return groups;
+}
 
+/// Operators with room for these rows, of which there is none yet.
+DiscreteOperators<3> without_rows(const Cloud<3>& cloud, const Groups& groups) {
+  const std::size_t rows = groups.alone.size() + groups.joined();
   DiscreteOperators<3> op;
-  op.points = static_cast<int>(roots.size());
+  op.points = static_cast<int>(rows);
   op.nodes = cloud.nodes();
-  op.row_begin.reserve(roots.size() + 1);
-  op.volume.reserve(roots.size());
-  op.node.reserve(4 * mesh.node.size());
-  op.value.reserve(4 * mesh.node.size());
-  for (Field& gradient : op.gradient) gradient.reserve(4 * mesh.node.size());
-  op.row_begin.assign(1, 0);
-  struct Entry {
-    NodeIndex node;
-    Vec<3> b;
-    double value;
-  };
-  std::vector<Entry> row;
-  for (std::size_t p = 0; p < roots.size(); ++p) {
-    row.clear();
+  op.volume.reserve(rows);
+  op.row_begin.reserve(rows + 1);
+  op.row_begin.push_back(0);
+  op.node.reserve(4 * groups.volume.size());
+  return op;
+}
+
+/// Adds rows of tetrahedra that are taken together.
+class RowsOfSeveral {
+public:
+  RowsOfSeveral(const Cloud<3>& cloud, const Tetrahedra& mesh, const Groups& groups)
+      : cloud_(cloud), mesh_(mesh), volume_(groups.volume) {}
+
+  void add(std::span<const SimplexIndex> members, DiscreteOperators<3>& op) {
+    row_.clear();
     double sum = 0.0;
-    for (const SimplexIndex t : members.of(p)) {
-      const auto normal = face_normals(corners_of(cloud, mesh, t));
-      const double share = std::max(volume[index_of(t)], 0.0);
+    for (const SimplexIndex t : members) {
+      const auto normal = face_normals(corners_of(cloud_, mesh_, t));
+      const double share = std::max(volume_[index_of(t)], 0.0);
       sum += share;
       for (std::size_t k = 0; k < 4; ++k) {
-        const NodeIndex i = mesh.node[t][k];
-        auto at = std::find_if(row.begin(), row.end(), [&](const Entry& e) { return e.node == i; });
-        if (at == row.end()) at = row.insert(at, {i, Vec<3>::Zero(), 0.0});
+        const NodeIndex i = mesh_.node[t][k];
+        auto at = std::find_if(row_.begin(), row_.end(), [&](const Entry& e) { return e.node == i; });
+        if (at == row_.end()) at = row_.insert(at, {i, Vec<3>::Zero(), 0.0});
         at->b -= normal[k] / 6.0;
         at->value += 0.25 * share;
       }
     }
-    if (!(sum > 0.0)) // says where
-      return linear_simplices<3>(cloud, std::span(&mesh.node[roots[p]], 1));
-    std::sort(row.begin(), row.end(), [](const Entry& a, const Entry& b) { return a.node < b.node; });
+    std::sort(row_.begin(), row_.end(), [](const Entry& a, const Entry& b) { return a.node < b.node; });
     op.volume.push_back(sum);
-    for (const Entry& entry : row) {
+    for (const Entry& entry : row_) {
       op.node.push_back(entry.node);
       op.value.push_back(entry.value / sum);
       for (std::size_t d = 0; d < 3; ++d)
@@ -112,8 +130,49 @@ DiscreteOperators<3> linear_tetrahedra(const Cloud<3>& cloud, const Tetrahedra& 
     }
     op.row_begin.push_back(static_cast<std::int32_t>(op.node.size()));
   }
+
+private:
+  struct Entry {
+    NodeIndex node;
+    Vec<3> b;
+    double value;
+  };
+  const Cloud<3>& cloud_;
+  const Tetrahedra& mesh_;
+  const std::vector<double>& volume_;
+  std::vector<Entry> row_;
+};
+
+} // namespace
+
+DiscreteOperators<3> linear_tetrahedra(const Cloud<3>& cloud, const Tetrahedra& mesh) {
+  const Groups groups = grouped(cloud, mesh);
+  if (groups.joined() == 0) return linear_simplices<3>(cloud, mesh.node);
+  DiscreteOperators<3> op = without_rows(cloud, groups);
+  op.value.reserve(4 * mesh.node.size());
+  for (Field& gradient : op.gradient) gradient.reserve(4 * mesh.node.size());
+  RowsOfSeveral rows(cloud, mesh, groups);
+  for (const SimplexIndex t : groups.alone) rows.add(std::span(&t, 1), op);
+  for (std::size_t k = 0; k < groups.joined(); ++k) rows.add(groups.together.of(k), op);
   op.build_transpose();
   assert(rows_are_complete(op) && reproduces_linear_fields(op, cloud.position));
+  return op;
+}
+
+DiscreteOperators<3> conduction_pattern(const Cloud<3>& cloud, const Tetrahedra& mesh) {
+  const Groups groups = grouped(cloud, mesh);
+  DiscreteOperators<3> op = without_rows(cloud, groups);
+  for (const SimplexIndex t : groups.alone) {
+    auto corner = mesh.node[t];
+    std::sort(corner.begin(), corner.end());
+    op.volume.push_back(groups.volume[index_of(t)]);
+    op.node.insert(op.node.end(), corner.begin(), corner.end());
+    op.row_begin.push_back(static_cast<std::int32_t>(op.node.size()));
+  }
+  RowsOfSeveral rows(cloud, mesh, groups);
+  for (std::size_t k = 0; k < groups.joined(); ++k) rows.add(groups.together.of(k), op);
+  op.value = Field();
+  op.begin_columns();
   return op;
 }
 

@@ -13,4 +13,8 @@ namespace cnem::voronoi {
 /// linear_simplices where one without volume has no larger neighbour.
 DiscreteOperators<3> linear_tetrahedra(const Cloud<3>& cloud, const Tetrahedra& mesh);
 
+/// What conduction reads of them (linear_simplices.hpp, keep_pattern), without making the rest. Throws as
+/// they do.
+DiscreteOperators<3> conduction_pattern(const Cloud<3>& cloud, const Tetrahedra& mesh);
+
 } // namespace cnem::voronoi
