@@ -58,6 +58,12 @@ template<int dim> struct RowBlock {
   std::vector<double> hoop;
 };
 
+/// An operator and its rows that are yet to be put one after another.
+template<int dim> struct UnjoinedRows {
+  DiscreteOperators<dim> op;
+  std::vector<RowBlock<dim>> block;
+};
+
 /// Sums up the rows of nodal operators on whose nodes, volumes and, of revolution, radii are known: sum(i,
 /// row) adds to the row of node i and gives what its gradients are divided by.
 template<int dim, class Sum> std::vector<RowBlock<dim>> sum_rows(DiscreteOperators<dim>& op, Sum&& sum) {
@@ -98,7 +104,7 @@ template<int dim, class Sum> std::vector<RowBlock<dim>> sum_rows(DiscreteOperato
   return list;
 }
 
-/// Puts the rows one after another and builds the transpose. Each block is let go of as soon as it is copied.
+/// Puts the rows one after another. Each block is let go of as soon as it is copied.
 template<int dim> void join_rows(DiscreteOperators<dim>& op, std::vector<RowBlock<dim>> list) {
   const auto nodes = index_of(op.nodes);
   const bool revolution = op.of_revolution();
@@ -118,12 +124,17 @@ template<int dim> void join_rows(DiscreteOperators<dim>& op, std::vector<RowBloc
     std::copy(list[k].hoop.begin(), list[k].hoop.end(), op.hoop.begin() + (revolution ? offset[k] : 0));
     list[k] = {};
   }
-  op.build_transpose();
+}
+
+template<int dim> DiscreteOperators<dim> joined(UnjoinedRows<dim> rows) {
+  join_rows(rows.op, std::move(rows.block));
+  return std::move(rows.op);
 }
 
 /// Fills in the rows of an operator, and its transpose: sums them up and puts them one after another.
 template<int dim, class Sum> void fill_rows(DiscreteOperators<dim>& op, Sum&& sum) {
   join_rows(op, sum_rows(op, sum));
+  op.build_transpose();
 }
 
 } // namespace cnem::scni

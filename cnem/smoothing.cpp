@@ -1,6 +1,5 @@
 #include "cnem/smoothing.hpp"
 
-#include "cnem/nodal_rows.hpp"
 #include "core/index.hpp"
 #include "core/machine/parallel.hpp"
 #include "core/operators/operator_checks.hpp"
@@ -25,8 +24,8 @@ std::array<double, 2> revolved_shares(const BoundaryPart<2>& part, const std::ar
 } // namespace
 
 template<int dim, class Face>
-DiscreteOperators<dim> smoothed_gradients(const Cloud<dim>& cloud, const FacesOfCells<dim, Face>& cells,
-                                          FaceMeans means, const CentroidValues* revolution) {
+UnjoinedRows<dim> smoothed_rows(const Cloud<dim>& cloud, const FacesOfCells<dim, Face>& cells,
+                                FaceMeans means, const CentroidValues* revolution) {
   const auto nodes = index_of(cloud.nodes());
   assert(cells.volume.size() == nodes && cells.of_cell.begin.size() == nodes + 1);
   const auto boundary = group_by_cell<PartIndex>(
@@ -73,7 +72,14 @@ DiscreteOperators<dim> smoothed_gradients(const Cloud<dim>& cloud, const FacesOf
     }
     return cells.volume[i] * op.radius[i];
   });
-  join_rows(op, std::move(rows));
+  return {std::move(op), std::move(rows)};
+}
+
+template<int dim, class Face>
+DiscreteOperators<dim> smoothed_gradients(const Cloud<dim>& cloud, const FacesOfCells<dim, Face>& cells,
+                                          FaceMeans means, const CentroidValues* revolution) {
+  DiscreteOperators<dim> op = joined(smoothed_rows(cloud, cells, std::move(means), revolution));
+  op.build_transpose();
   assert(rows_are_complete(op) && reproduces_linear_fields(op, cloud.position));
   return op;
 }
@@ -107,6 +113,8 @@ template DiscreteOperators<3> smoothed_gradients(const Cloud<3>&, const FacesOfC
                                                  FaceMeans, const CentroidValues*);
 template DiscreteOperators<3> smoothed_gradients(const Cloud<3>&, const FacesOfCells<3, Interface<3>>&,
                                                  FaceMeans, const CentroidValues*);
+template UnjoinedRows<3> smoothed_rows(const Cloud<3>&, const FacesOfCells<3, Interface<3>>&, FaceMeans,
+                                       const CentroidValues*);
 template StabilisationLinks<2> stabilisation_links(const Cloud<2>&, const FacesOfCells<2, InnerFace<2>>&);
 template StabilisationLinks<3> stabilisation_links(const Cloud<3>&, const FacesOfCells<3, InnerFace<3>>&);
 template StabilisationLinks<3> stabilisation_links(const Cloud<3>&, const FacesOfCells<3, Interface<3>>&);

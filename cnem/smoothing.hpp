@@ -1,6 +1,7 @@
 #pragma once
 // Stabilised conforming nodal integration on a cell complex: gradients smoothed over the cells (paper 004,
 // (75)–(79)), and the links that stabilise them.
+#include "cnem/nodal_rows.hpp"
 #include "cnem/quadrature.hpp"
 #include "cnem/revolution.hpp"
 #include "core/geometry/cell_complex.hpp"
@@ -41,6 +42,10 @@ FacesOfCells<dim, InnerFace<dim>> faces_between(const CellComplex<dim>& cells,
 template<int dim, class Face>
 DiscreteOperators<dim> smoothed_gradients(const Cloud<dim>& cloud, const FacesOfCells<dim, Face>& cells,
                                           FaceMeans means, const CentroidValues* revolution = nullptr);
+/// Its rows. What they are made of may be let go of before they are joined, which takes as much memory again.
+template<int dim, class Face>
+UnjoinedRows<dim> smoothed_rows(const Cloud<dim>& cloud, const FacesOfCells<dim, Face>& cells,
+                                FaceMeans means, const CentroidValues* revolution = nullptr);
 template<int dim>
 DiscreteOperators<dim> smoothed_gradients(const Cloud<dim>& cloud, const CellComplex<dim>& cells,
                                           const CellLists<FaceIndex>& faces, FaceMeans means,

@@ -36,6 +36,7 @@ public:
   /// Throws GeometryError as voronoi::triangulate (with tetrahedra of its own as voronoi::connected) and
   /// voronoi::linear_tetrahedra do. O(N log N).
   Approximation<3> rebuild(const Cloud<3>& cloud) override;
+  Approximation<3> rebuild_rows(const Cloud<3>& cloud) override;
   std::string name() const override;
   Promises promises() const override { return promised; }
 
@@ -43,6 +44,10 @@ public:
   const voronoi::Fallbacks& fallbacks() const { return fallbacks_; }
 
 private:
+  /// Fills in the links too.
+  UnjoinedRows<3> rows_on_voronoi_cells(const Cloud<3>& cloud, const voronoi::Tetrahedra& mesh,
+                                        StabilisationLinks<3>& links);
+
   SpaceOptions options_;
   voronoi::Fallbacks fallbacks_;
 };

@@ -190,11 +190,15 @@ FacetMeans facet_means(const Cloud<3>& cloud, const voronoi::Tetrahedra& mesh, v
   }
   failure.rethrow();
   function_mesh.reset(); // before what comes of it
-  std::vector<Interface<3>> facet;
-  facet.reserve(items.size());
-  for (const Item& item : items)
-    facet.push_back({cells.rings.end[item.edge],
-                     item.triangle < 0 ? cells.normal[item.edge] : FanTriangle(cloud, cells, item).area()});
+  std::vector<Interface<3>> facet(items.size());
+  for_each_block(items.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const Item& item = items[k];
+      facet[k] = {cells.rings.end[item.edge], item.triangle < 0
+                                                  ? voronoi::facet_normal(cloud, cells, item.edge)
+                                                  : FanTriangle(cloud, cells, item).area()};
+    }
+  });
   return {std::move(facet), FaceMeans(std::move(list)), fallbacks};
 }
 

@@ -75,7 +75,7 @@ template<int dim> void ExplicitSolver<dim>::renew(Cloud<dim> cloud, const Resamp
   Approximation<dim> rebuilt;
   std::optional<PointChange> points_change;
   try {
-    rebuilt = model_.method->rebuild(cloud);
+    rebuilt = model_.method->rebuild_rows(cloud);
     if constexpr (dim == 3) cloud.simplices = {}, cloud.across = {}; // before nodes move
     if (references_ > 0) points_change = change_of_points(change, cloud, rebuilt.mechanics);
   } catch (...) {
@@ -91,6 +91,7 @@ template<int dim> void ExplicitSolver<dim>::renew(Cloud<dim> cloud, const Resamp
   if (change || points_change) carry_over(change, points_change, rebuilt.mechanics);
   conditions_.cloud = std::move(cloud);
   *approximation_ = std::move(rebuilt);
+  if (approximation_->mechanics.point.empty()) approximation_->mechanics.build_transpose();
   node.reference = node.position;
   if (references_ == 0) start_points();
   place_reference();

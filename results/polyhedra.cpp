@@ -101,7 +101,8 @@ Vec3 moved(const Cloud<3>& cloud, const Maker& maker, const Corner& node, const 
 /// Whether a facet inside the body lies in one plane through the middle of its edge, in the reference.
 bool is_plane(const Cloud<3>& cloud, const voronoi::VoronoiCells& cells, EdgeIndex e) {
   const auto& [i, j] = cells.rings.end[e];
-  const Vec3 middle = 0.5 * (cloud.position[i] + cloud.position[j]), normal = cells.normal[e].normalized();
+  const Vec3 middle = 0.5 * (cloud.position[i] + cloud.position[j]),
+             normal = facet_normal(cloud, cells, e).normalized();
   const double size = (cloud.position[j] - cloud.position[i]).norm();
   return std::ranges::all_of(cells.rings.of(e), [&](DualPointIndex p) {
     return std::abs(normal.dot(cells.points.place[p] - middle)) < 1e-9 * size;

@@ -79,8 +79,8 @@ void smoothing_and_links(benchmark::State& state) {
         const auto of_cell = group_by_cell<FaceIndex>(
             cloud.position.size(), facet.size(), [&](std::size_t f) -> const auto& { return facet[f].cell; });
         const auto boundary = voronoi::thirds_of_facets(cloud);
-        const scni::FacesOfCells<3, scni::Interface<3>> faces{cells.volume, facet, of_cell, boundary,
-                                                              cells.neighbours};
+        const auto linked = voronoi::neighbours(cloud.position.size(), cells.rings);
+        const scni::FacesOfCells<3, scni::Interface<3>> faces{cells.volume, facet, of_cell, boundary, linked};
         return std::pair(scni::smoothed_gradients(cloud, faces, std::move(means_on_facets)),
                          scni::stabilisation_links(cloud, faces));
       });
@@ -96,7 +96,7 @@ void median_rows_and_links(benchmark::State& state) {
 }
 
 void conduction(benchmark::State& state) {
-  per_node(state, [] { return voronoi::linear_tetrahedra(Geometry::get().cloud, Geometry::get().mesh); });
+  per_node(state, [] { return voronoi::conduction_pattern(Geometry::get().cloud, Geometry::get().mesh); });
 }
 
 void whole_median(benchmark::State& state) {

@@ -57,6 +57,10 @@ public:
   /// speed, but the result depends on the cloud alone.
   virtual Approximation<dim> rebuild(const Cloud<dim>& cloud) = 0;
 
+  /// The same, but that the transpose of `mechanics` may be yet to be built (it has no points then): it takes
+  /// as much memory as the rows, which whoever holds a former approximation meanwhile can do without.
+  virtual Approximation<dim> rebuild_rows(const Cloud<dim>& cloud) { return rebuild(cloud); }
+
   /// Of what matter the points of `now` are, which was built on `cloud`: of each point of `old`, built on the
   /// same nodes elsewhere, the fractions that they take where the nodes are now, so that Σ_p f_pk = 1. A
   /// point that is in both has the row {itself, 1}. Empty where points are those of nodes, which stay what

@@ -11,14 +11,12 @@ DualPoints dual_points(const Cloud<3>& cloud, const Tetrahedra& mesh, const Circ
   DualPoints points;
   points.place.resize(count + facets);
   points.holder.resize(count);
-  points.wall.resize(count);
   for_each_block(count, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const auto t = as<SimplexIndex>(k);
       const SpaceWalkEnd reached = walk(cloud, mesh, t, spheres.centre[t]);
       points.place[dual_point_of(t)] = reached.place;
       points.holder[t] = reached.tetrahedron;
-      points.wall[t] = reached.facet;
     }
   });
   for (const CloudFacetIndex f : cloud.facets.indices())
@@ -33,7 +31,6 @@ void draw_in(const Cloud<3>& cloud, const Tetrahedra& mesh, DualPoints& points, 
   Vec<3>& place = points.place[dual_point_of(tetrahedron)];
   place = 0.5 * (place + centroid);
   points.holder[tetrahedron] = walk(cloud, mesh, tetrahedron, place).tetrahedron;
-  points.wall[tetrahedron] = CloudFacetIndex::none;
 }
 
 } // namespace cnem::voronoi

@@ -13,8 +13,6 @@ namespace cnem::voronoi {
 struct DualPoints {
   IndexedVector<DualPointIndex, Vec<3>> place;      ///< m
   IndexedVector<SimplexIndex, SimplexIndex> holder; ///< the tetrahedron that the point of each lies in
-  IndexedVector<SimplexIndex, CloudFacetIndex>
-      wall; ///< the facet that hides the circumcentre; none: none does
 };
 
 /// O(N).

@@ -18,37 +18,27 @@ Vec<3> middle_of(const Cloud<3>& cloud, const std::array<NodeIndex, 2>& end) {
   return 0.5 * (cloud.position[end[0]] + cloud.position[end[1]]);
 }
 
-bool is_open(std::span<const DualPointIndex> ring, std::size_t tetrahedra) {
-  return index_of(ring.front()) >= tetrahedra;
+bool is_open(std::span<const DualPointIndex> ring, const Cloud<3>& cloud, const DualPoints& points) {
+  return index_of(ring.front()) >= points.place.size() - cloud.facets.size();
 }
 
 /// Calls body(p, q) for the dual points of each triangle of a fan.
-template<class Body> void for_each_triangle(const VoronoiCells& cells, EdgeIndex edge, Body&& body) {
+template<class Body>
+void for_each_triangle(const Cloud<3>& cloud, const VoronoiCells& cells, EdgeIndex edge, Body&& body) {
   const auto ring = cells.rings.of(edge);
   for (std::size_t k = 0; k + 1 < ring.size(); ++k) body(ring[k], ring[k + 1]);
-  if (!is_open(ring, cells.points.holder.size())) body(ring.back(), ring.front());
+  if (!is_open(ring, cloud, cells.points)) body(ring.back(), ring.front());
 }
 
-void set_normal(const Cloud<3>& cloud, VoronoiCells& cells, EdgeIndex edge) {
-  const Vec<3> middle = middle_of(cloud, cells.rings.end[edge]);
-  Vec<3> sum = Vec<3>::Zero();
-  for_each_triangle(cells, edge, [&](DualPointIndex p, DualPointIndex q) {
-    sum += (cells.points.place[p] - middle).cross(cells.points.place[q] - middle);
-  });
-  cells.normal[edge] = 0.5 * sum;
-}
-
-void set_volumes(const Cloud<3>& cloud, VoronoiCells& cells) {
-  for_each_block(cells.volume.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      double sum = 0.0;
-      for (const EdgeIndex e : cells.edges.of(i)) {
-        const auto& [a, b] = cells.rings.end[e];
-        sum += cells.normal[e].dot(cloud.position[b] - cloud.position[a]);
-      }
-      cells.volume[i] = sum / 6.0;
-    }
-  });
+void set_volumes(const Cloud<3>& cloud, const IndexedVector<EdgeIndex, Vec<3>>& normal, VoronoiCells& cells) {
+  cells.volume.assign(cloud.position.size(), 0.0);
+  for (const EdgeIndex e : normal.indices()) {
+    const auto& [a, b] = cells.rings.end[e];
+    const double of_both = normal[e].dot(cloud.position[b] - cloud.position[a]);
+    cells.volume[index_of(a)] += of_both;
+    cells.volume[index_of(b)] += of_both;
+  }
+  for (double& volume : cells.volume) volume /= 6.0;
 }
 
 /// [cell] a quarter of the volumes of its tetrahedra, m³.
@@ -64,7 +54,7 @@ Field median_volumes(const Cloud<3>& cloud, const Tetrahedra& mesh) {
 
 /// Draws in the points round cells that are too small; false when there is none.
 bool draw_in_small_cells(const Cloud<3>& cloud, const Tetrahedra& mesh, const Field& median,
-                         VoronoiCells& cells) {
+                         IndexedVector<EdgeIndex, Vec<3>>& normal, VoronoiCells& cells) {
   constexpr double least = 0.15;
   std::vector<std::uint8_t> small(cells.volume.size());
   bool any = false;
@@ -83,14 +73,24 @@ bool draw_in_small_cells(const Cloud<3>& cloud, const Tetrahedra& mesh, const Fi
   for (const EdgeIndex e : cells.rings.end.indices()) {
     const auto ring = cells.rings.of(e);
     if (std::any_of(ring.begin(), ring.end(), [&](DualPointIndex p) { return drawn[p] != 0; }))
-      set_normal(cloud, cells, e);
+      normal[e] = facet_normal(cloud, cells, e);
   }
-  set_volumes(cloud, cells);
+  set_volumes(cloud, normal, cells);
   return true;
 }
 
-/// The other ends of the edges of each cell. An edge that has several rings counts once.
-CellLists<NodeIndex> neighbours_of(std::size_t cells, const EdgeRings& rings) {
+} // namespace
+
+Vec<3> facet_normal(const Cloud<3>& cloud, const VoronoiCells& cells, EdgeIndex edge) {
+  const Vec<3> middle = middle_of(cloud, cells.rings.end[edge]);
+  Vec<3> sum = Vec<3>::Zero();
+  for_each_triangle(cloud, cells, edge, [&](DualPointIndex p, DualPointIndex q) {
+    sum += (cells.points.place[p] - middle).cross(cells.points.place[q] - middle);
+  });
+  return 0.5 * sum;
+}
+
+CellLists<NodeIndex> neighbours(std::size_t cells, const EdgeRings& rings) {
   CellLists<NodeIndex> lists = other_ends(cells, rings.end);
   for (std::size_t i = 0; i < cells; ++i) {
     const auto list = lists.of(i);
@@ -103,22 +103,16 @@ CellLists<NodeIndex> neighbours_of(std::size_t cells, const EdgeRings& rings) {
   return lists;
 }
 
-} // namespace
-
 VoronoiCells voronoi_cells(const Cloud<3>& cloud, const Tetrahedra& mesh, const Circumspheres& spheres) {
   VoronoiCells cells;
   cells.points = dual_points(cloud, mesh, spheres);
   cells.rings = edge_rings(mesh);
   const std::size_t edges = cells.rings.end.size(), nodes = cloud.position.size();
-  cells.normal.resize(edges);
+  IndexedVector<EdgeIndex, Vec<3>> normal(edges);
   for_each_block(edges, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t e = begin; e < end; ++e) set_normal(cloud, cells, as<EdgeIndex>(e));
+    for (std::size_t e = begin; e < end; ++e) normal[e] = facet_normal(cloud, cells, as<EdgeIndex>(e));
   });
-  cells.edges = group_by_cell<EdgeIndex>(
-      nodes, edges, [&](std::size_t e) -> const auto& { return cells.rings.end[e]; });
-  cells.neighbours = neighbours_of(nodes, cells.rings);
-  cells.volume.resize(nodes);
-  set_volumes(cloud, cells);
+  set_volumes(cloud, normal, cells);
 
   const Field median = median_volumes(cloud, mesh);
   for (std::size_t i = 0; i < nodes; ++i)
@@ -126,7 +120,7 @@ VoronoiCells voronoi_cells(const Cloud<3>& cloud, const Tetrahedra& mesh, const 
       throw GeometryError("the tetrahedra of the node at " + place_text(cloud.position[i]) +
                           " m have no volume");
   constexpr int most_halvings = 60;
-  for (int n = 0; draw_in_small_cells(cloud, mesh, median, cells); ++n)
+  for (int n = 0; draw_in_small_cells(cloud, mesh, median, normal, cells); ++n)
     if (n == most_halvings)
       throw GeometryError(
           "cells stay without volume wherever their points are put: nodes are on one plane to "
@@ -139,14 +133,14 @@ void facet_polygon(const Cloud<3>& cloud, const VoronoiCells& cells, EdgeIndex e
   const auto ring = cells.rings.of(edge);
   polygon.clear();
   for (const DualPointIndex p : ring) polygon.push_back(cells.points.place[p]);
-  if (is_open(ring, cells.points.holder.size())) polygon.push_back(middle_of(cloud, cells.rings.end[edge]));
+  if (is_open(ring, cloud, cells.points)) polygon.push_back(middle_of(cloud, cells.rings.end[edge]));
 }
 
 CellComplex<3> cell_complex(const Cloud<3>& cloud, const Tetrahedra& mesh, const VoronoiCells& cells) {
   CellComplex<3> complex;
   complex.volume = cells.volume;
   complex.boundary = thirds_of_facets(cloud);
-  complex.neighbours = cells.neighbours;
+  complex.neighbours = neighbours(cloud.position.size(), cells.rings);
   complex.interior.reserve(cells.rings.point.size());
   const std::size_t tetrahedra = mesh.node.size();
   const auto holder = [&](DualPointIndex p) {
@@ -154,7 +148,7 @@ CellComplex<3> cell_complex(const Cloud<3>& cloud, const Tetrahedra& mesh, const
   };
   for (const EdgeIndex e : cells.rings.end.indices()) {
     const Vec<3> middle = middle_of(cloud, cells.rings.end[e]);
-    for_each_triangle(cells, e, [&](DualPointIndex p, DualPointIndex q) {
+    for_each_triangle(cloud, cells, e, [&](DualPointIndex p, DualPointIndex q) {
       complex.interior.push_back({cells.rings.end[e],
                                   {holder(p), holder(q)},
                                   {middle, cells.points.place[p], cells.points.place[q]}});

@@ -14,11 +14,14 @@ namespace cnem::voronoi {
 struct VoronoiCells {
   DualPoints points;
   EdgeRings rings;
-  IndexedVector<EdgeIndex, Vec<3>> normal; ///< m², from the first end to the second
-  Field volume;                            ///< [cell] m³
-  CellLists<EdgeIndex> edges;              ///< of each cell
-  CellLists<NodeIndex> neighbours;         ///< the other ends
+  Field volume; ///< [cell] m³
 };
+
+/// N of an edge, from its first end to its second, m².
+Vec<3> facet_normal(const Cloud<3>& cloud, const VoronoiCells& cells, EdgeIndex edge);
+
+/// The other ends of the edges of each cell. An edge that has several rings counts once.
+CellLists<NodeIndex> neighbours(std::size_t cells, const EdgeRings& rings);
 
 /// Dual points of cells with less than 0.15 of their share in the tetrahedra (a quarter of each) are drawn to
 /// the centroids, by half at a time, until there is none: circumcentres alone leave negative volumes where

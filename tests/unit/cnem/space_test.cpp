@@ -118,6 +118,16 @@ TEST(CnemInSpace, conduction_is_finite_on_flat_tetrahedra) {
     EXPECT_TRUE(reproduces_linear_fields(op, cloud.position));
     for (const Field& gradient : op.gradient)
       for (const double g : gradient) EXPECT_LT(std::abs(g), 2.0);
+    auto kept = op;
+    voronoi::keep_pattern(kept);
+    const auto pattern = voronoi::conduction_pattern(cloud, mesh);
+    EXPECT_GT(pattern.gradient[0].size(), 0U);
+    EXPECT_EQ(pattern.gradient, kept.gradient);
+    EXPECT_EQ(pattern.volume, kept.volume);
+    EXPECT_EQ(pattern.row_begin, kept.row_begin);
+    EXPECT_EQ(pattern.node, kept.node);
+    EXPECT_EQ(pattern.col_begin, kept.col_begin);
+    EXPECT_TRUE(pattern.value.empty());
     for (const auto& options : all_options()) {
       scni::SpaceOptions on_mesh = options;
       on_mesh.tetrahedra = list;
@@ -125,6 +135,21 @@ TEST(CnemInSpace, conduction_is_finite_on_flat_tetrahedra) {
       EXPECT_TRUE(rows_are_complete(rows));
       EXPECT_TRUE(reproduces_linear_fields(rows, cloud.position));
     }
+  }
+}
+
+/// What a solver builds when it has let go of its former operators.
+TEST(CnemInSpace, rows_and_their_transpose_are_those_of_a_rebuild) {
+  const Cloud<3> cloud = recovered({.shape = SpaceShape::cube, .cells = 4, .jitter = 0.3}).cloud;
+  for (const auto& options : all_options()) {
+    const auto whole = CnemInSpace(options).rebuild(cloud).mechanics;
+    auto rows = CnemInSpace(options).rebuild_rows(cloud).mechanics;
+    if (options.cells == CellKind::voronoi) { EXPECT_TRUE(rows.point.empty()); }
+    rows.build_transpose();
+    EXPECT_EQ(rows.node, whole.node);
+    EXPECT_EQ(rows.gradient, whole.gradient);
+    EXPECT_EQ(rows.point, whole.point);
+    EXPECT_EQ(rows.weighted_gradient, whole.weighted_gradient);
   }
 }
 
