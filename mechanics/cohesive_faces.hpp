@@ -99,8 +99,8 @@ public:
   /// Sets faces apart that are nearer than a 100,000th of an element, where they were bonded or, slid, touch
   /// now, so that a new reference finds no matter of one in the other; offsets follow, and so no traction
   /// changes. Faces that coincide stay. Returns the interface whose faces still lie in each other after as
-  /// many passes as are made; null: none.
-  const CohesiveInterface* part(Fields<2>& position);
+  /// many passes as are made; null: none. The boundary of the cloud says where bodies lie in each other.
+  const CohesiveInterface* part(const Cloud<2>& cloud, Fields<2>& position);
 
   /// Follows a changed cloud: nodes that stay keep their arc length, new ones take it from their neighbours
   /// on the face, damage and offsets are interpolated along the arc. Where the face was laid elsewhere, by

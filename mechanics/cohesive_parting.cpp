@@ -21,6 +21,7 @@ namespace {
 
 constexpr double apart = 1e-5;   ///< of an element or a segment: what is left between faces
 constexpr double deepest = 0.5;  ///< of a segment: what is deeper in the other face is not beside it
+constexpr double shallow = 1e-3; ///< of a segment or facet: what is deeper is no remainder of contact
 constexpr double facing = -0.25; ///< cosine between normals below which two faces face each other
 constexpr int most_passes = 8;   ///< setting one pair apart may push another together
 
@@ -38,6 +39,20 @@ using Shifts = IndexedVector<NodeIndex, Vec2>;
 /// Of several wishes for a node the largest holds.
 void wish(Vec2& own, const Vec2& wanted) {
   if (wanted.squaredNorm() > own.squaredNorm()) own = wanted;
+}
+
+/// Of how many bodies the boundary of a cloud, at the places of its nodes, goes round a point: its winding
+/// number.
+int bodies_at(const Cloud<2>& cloud, const Fields<2>& position, const Vec2& x) {
+  int turns = 0;
+  for (const Facet<2>& facet : cloud.facets) {
+    const Vec2 a = vector_at<2>(position, index_of(facet.node[0])),
+               b = vector_at<2>(position, index_of(facet.node[1]));
+    const double side = cross(b - a, x - a);
+    if (a.y() <= x.y() && b.y() > x.y() && side > 0.0) ++turns;
+    if (a.y() > x.y() && b.y() <= x.y() && side < 0.0) --turns;
+  }
+  return turns;
 }
 
 /// One face of an interface at the places of its nodes, to ask how deep points lie in its matter.
@@ -88,6 +103,7 @@ public:
 
   struct Foot {
     std::size_t segment;
+    Vec2 place;
     Vec2 normal; ///< outward
     double gap;  ///< m, negative within the matter
   };
@@ -107,12 +123,12 @@ public:
       if (distance < least) least = distance, at = i, place = there;
     }
     if (least == 0.0 || !std::isfinite(least)) return std::nullopt;
-    const Vec2 away = x - from_[at] - place * edge_[at];
-    if (place > 0.0 && place < 1.0) return Foot{at, outward_[at], outward_[at].dot(away)};
+    const Vec2 foot = from_[at] + place * edge_[at], away = x - foot;
+    if (place > 0.0 && place < 1.0) return Foot{at, foot, outward_[at], outward_[at].dot(away)};
     const std::size_t node = place == 0.0 ? at : at + 1;
     if (!joined(node)) return std::nullopt;
     const Vec2 normal = normal_at(node);
-    return Foot{at, normal, std::copysign(away.norm(), normal.dot(away))};
+    return Foot{at, foot, normal, std::copysign(away.norm(), normal.dot(away))};
   }
 
 private:
@@ -147,7 +163,9 @@ bool part_bonded(const CohesiveInterface& interface, const Fields<2>& position, 
 }
 
 /// Of what lies on each other now: faces that slide and bend overlap elsewhere than where they were bonded.
-bool part_touching(const CohesiveInterface& interface, const Fields<2>& position, Shifts& shift) {
+/// What stands beyond a film, on its other side, is in no matter: two bodies are to be at half the depth.
+bool part_touching(const CohesiveInterface& interface, const Cloud<2>& cloud, const Fields<2>& position,
+                   Shifts& shift) {
   bool any = false;
   const std::array face{PlacedFace(interface.face[0], 0, position),
                         PlacedFace(interface.face[1], 1, position)};
@@ -158,6 +176,8 @@ bool part_touching(const CohesiveInterface& interface, const Fields<2>& position
       if (!foot || foot->normal.dot(node.normal) > facing) continue;
       const double length = other.length(foot->segment), wide = apart * length, missing = wide - foot->gap;
       if (missing <= 0.5 * wide || missing > deepest * length) continue;
+      if (missing > shallow * length && bodies_at(cloud, position, 0.5 * (node.place + foot->place)) < 2)
+        continue;
       any = true;
       wish(shift[node.index], 0.5 * missing * foot->normal);
       for (const NodeIndex of_foot : other.segment(foot->segment).node)
@@ -208,7 +228,6 @@ public:
   }
 
 private:
-  static constexpr double shallow = 1e-3;  ///< of a facet: what is deeper is no remainder of contact
   static constexpr double kept = 1e-6;     ///< of a facet, as contact keeps
   static constexpr double rounding = 1e-9; ///< of a facet: faces that coincide are in none
   using FacetTree = bg::index::rtree<std::pair<TreeBox, CloudFacetIndex>, bg::index::quadratic<16>>;
@@ -229,18 +248,7 @@ private:
       return false;
     const Vec2 out = normal(f);
     if (std::min(normal(entering_[i]).dot(out), normal(leaving_[i]).dot(out)) > facing) return false;
-    return bodies_at(at(i) + 0.5 * depth * out) > 1;
-  }
-  /// Winding number of the boundary.
-  int bodies_at(const Vec2& x) const {
-    int turns = 0;
-    for (const Facet<2>& facet : cloud_.facets) {
-      const Vec2 a = at(facet.node[0]), b = at(facet.node[1]);
-      const double side = cross(b - a, x - a);
-      if (a.y() <= x.y() && b.y() > x.y() && side > 0.0) ++turns;
-      if (a.y() > x.y() && b.y() <= x.y() && side < 0.0) --turns;
-    }
-    return turns;
+    return bodies_at(cloud_, position_, at(i) + 0.5 * depth * out) > 1;
   }
 
   const Cloud<2>& cloud_;
@@ -265,7 +273,7 @@ void part_boundary(const Cloud<2>& cloud, Fields<2>& position) {
   }
 }
 
-const CohesiveInterface* CohesiveFaces::part(Fields<2>& position) {
+const CohesiveInterface* CohesiveFaces::part(const Cloud<2>& cloud, Fields<2>& position) {
   const Fields<2> before = position;
   const auto left_free = [&](const CohesiveEnd& end) { return free(end); };
   bool any = false;
@@ -275,7 +283,7 @@ const CohesiveInterface* CohesiveFaces::part(Fields<2>& position) {
     last = nullptr;
     for (const CohesiveInterface& interface : interface_)
       if (pass == 0 ? part_bonded(interface, position, left_free, shift)
-                    : part_touching(interface, position, shift))
+                    : part_touching(interface, cloud, position, shift))
         last = &interface;
     any |= last != nullptr;
     if (pass == most_passes || (pass > 0 && !last)) break;

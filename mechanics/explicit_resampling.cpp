@@ -142,7 +142,8 @@ template<int dim> std::string ExplicitSolver<dim>::part_faces() requires(dim == 
   conditions_.cloud.body.clear();
   for (const std::size_t first : parts_of(approximation_->mechanics, state_.node.size()))
     conditions_.cloud.body.push_back(as<std::int32_t>(first));
-  const CohesiveInterface* left = conditions_.cohesive.part(state_.node.position); // with their offsets
+  const CohesiveInterface* left =
+      conditions_.cohesive.part(conditions_.cloud, state_.node.position); // with their offsets
   part_boundary(conditions_.cloud, state_.node.position);
   conditions_.contact.set_bonds(conditions_.cohesive.bonds(conditions_.cloud));
   return left ? left->spec.name : "";

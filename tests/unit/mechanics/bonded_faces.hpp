@@ -21,7 +21,7 @@ inline plasticity::CohesiveLaw law() {
   return law;
 }
 
-/// Two faces along y = 0 with nodes at these places, the upper first; each is a loop with a node of its own.
+/// Two faces along y = 0 with nodes at these places, the upper first.
 inline Cloud<2> two_faces(const std::vector<double>& upper, const std::vector<double>& lower) {
   Cloud<2> cloud;
   cloud.piece_names = {"j+", "j-", "rest"};
@@ -32,6 +32,24 @@ inline Cloud<2> two_faces(const std::vector<double>& upper, const std::vector<do
     cloud.facets.push_back({{node(i), node(i + 1)}, as<PieceIndex>(0)});
   for (std::size_t i = lower.size() - 1; i > 0; --i)
     cloud.facets.push_back({{node(upper.size() + i), node(upper.size() + i - 1)}, as<PieceIndex>(1)});
+  return cloud;
+}
+
+/// With matter of this thickness (m) behind each of two_faces: their nodes come first, two of a back follow
+/// for the upper and two for the lower.
+inline Cloud<2> two_bodies(const std::vector<double>& upper, const std::vector<double>& lower,
+                           double thickness) {
+  Cloud<2> cloud = two_faces(upper, lower);
+  const auto node = [](std::size_t i) { return as<NodeIndex>(i); };
+  const auto close = [&](std::size_t end, std::size_t start, double y) {
+    const std::size_t back = cloud.position.size();
+    for (const std::size_t i : {end, start}) cloud.position.push_back({cloud.position[node(i)].x(), y});
+    for (const auto& [a, b] :
+         {std::array{end, back}, std::array{back, back + 1}, std::array{back + 1, start}})
+      cloud.facets.push_back({{node(a), node(b)}, as<PieceIndex>(2)});
+  };
+  close(upper.size() - 1, 0, thickness);
+  close(upper.size(), upper.size() + lower.size() - 1, -thickness);
   return cloud;
 }
 

@@ -24,7 +24,7 @@ TEST(CohesiveParting, changes_no_traction) {
   const Fields<2> before = faces.force();
   double size = 0.0;
   for (std::size_t i = 0; i < x[0].size(); ++i) size = std::max(size, vector_at<2>(before, i).norm());
-  faces.part(x);
+  faces.part(cloud, x);
   EXPECT_EQ(x[1][0], 0.0);
   for (std::size_t i = 1; i < matching.size(); ++i) {
     EXPECT_GT(x[1][i], x[1][matching.size() + i]);
@@ -35,7 +35,7 @@ TEST(CohesiveParting, changes_no_traction) {
   for (std::size_t k = 0; k < 2; ++k)
     for (std::size_t i = 0; i < x[0].size(); ++i) EXPECT_NEAR(faces.force()[k][i], before[k][i], 1e-3 * size);
   const Fields<2> parted = x;
-  faces.part(x);
+  faces.part(cloud, x);
   EXPECT_EQ(x, parted);
 }
 
@@ -52,17 +52,17 @@ std::optional<double> height_above(const Fields<2>& x, std::size_t first, std::s
 TEST(CohesiveParting, sets_apart_what_has_slid_over_waves) {
   std::vector<double> grid;
   for (int i = 0; i <= 40; ++i) grid.push_back(i * h);
-  const Cloud<2> cloud = two_faces(grid, grid);
+  const Cloud<2> cloud = two_bodies(grid, grid, 10 * h);
   for (const double slip : {0.3 * h, 0.8 * h, 2.0 * h}) {
     CohesiveFaces faces = faces_of(cloud);
     Fields<2> x = places(cloud);
-    for (std::size_t i = 0; i < x[0].size(); ++i) {
+    for (std::size_t i = 0; i < 2 * grid.size(); ++i) {
       x[1][i] = 0.5 * h * std::sin(0.9 * x[0][i] / h);
       if (i < grid.size()) x[0][i] += slip, x[1][i] += 0.3 * slip;
     }
     const auto deepest = [&] {
       double deep = 0.0;
-      for (std::size_t i = 0; i < x[0].size(); ++i) {
+      for (std::size_t i = 0; i < 2 * grid.size(); ++i) {
         const bool above = i < grid.size();
         const auto height = height_above(x, above ? grid.size() : 0, grid.size(), vector_at<2>(x, i));
         if (height) deep = std::max(deep, above ? -*height : *height);
@@ -70,7 +70,7 @@ TEST(CohesiveParting, sets_apart_what_has_slid_over_waves) {
       return deep;
     };
     EXPECT_GT(deepest(), 0.01 * h) << slip / h;
-    faces.part(x);
+    faces.part(cloud, x);
     EXPECT_LE(deepest(), 0.0) << slip / h;
   }
 }
@@ -85,18 +85,38 @@ TEST(CohesiveParting, leaves_alone_what_has_slid_away) {
     x[1][i] = -matching[i] - h;
   }
   const Fields<2> before = x;
-  faces.part(x);
+  faces.part(cloud, x);
   EXPECT_EQ(x, before);
+}
+
+/// A sliver of the upper body has come to lie under the lower one, which is a film: it is nearer to the
+/// film's upper side than faces lie in each other, and yet in no matter.
+TEST(CohesiveParting, leaves_alone_what_stands_beyond_a_film) {
+  const Cloud<2> cloud = two_bodies(matching, matching, 0.2 * h);
+  CohesiveFaces faces = faces_of(cloud, true, {{0.0, 4 * h}});
+  const auto under_the_film = [&](double y) { // its lower face there, its upper one higher by 0.15 h
+    Fields<2> x = places(cloud);
+    for (std::size_t i = 0; i < matching.size(); ++i) x[1][i] = y;
+    for (const std::size_t back : {0U, 1U}) x[1][2 * matching.size() + back] = y + 0.15 * h;
+    return x;
+  };
+  const Fields<2> beyond = under_the_film(-0.4 * h);
+  Fields<2> x = beyond;
+  EXPECT_EQ(faces.part(cloud, x), nullptr);
+  EXPECT_EQ(x, beyond);
+  Fields<2> within = under_the_film(-0.1 * h);
+  EXPECT_EQ(faces.part(cloud, within), nullptr);
+  EXPECT_NE(within, under_the_film(-0.1 * h));
 }
 
 // Where a body has been cut through, a face ends in a corner that can lie in the other one.
 TEST(CohesiveParting, asks_the_last_node_of_a_face_too) {
-  const Cloud<2> cloud = two_faces(matching, other);
+  const Cloud<2> cloud = two_bodies(matching, other, h);
   CohesiveFaces faces = faces_of(cloud, true, {{0.0, 4 * h}});
   Fields<2> x = places(cloud);
   const std::size_t last = matching.size() - 1;
   for (std::size_t i = 0; i <= last; ++i) x[0][i] -= 0.7 * h, x[1][i] = i < last ? 0.1 * h : -0.02 * h;
-  EXPECT_EQ(faces.part(x), nullptr);
+  EXPECT_EQ(faces.part(cloud, x), nullptr);
   const std::size_t a = matching.size() + 4, b = a + 1; // the segment below it
   ASSERT_LT(x[0][a], x[0][last]);
   ASSERT_GT(x[0][b], x[0][last]);
@@ -147,16 +167,17 @@ TEST(PartBoundary, leaves_what_is_apart_or_deep_and_turns_no_film_inside_out) {
 }
 
 TEST(CohesiveParting, contact_is_told_what_pressed_a_bond_that_broke_until_its_faces_are_parted) {
-  const Cloud<2> cloud = two_faces(matching, matching);
+  const Cloud<2> cloud = two_bodies(matching, matching, h);
   CohesiveFaces faces = faces_of(cloud, true);
   Fields<2> x = places(cloud);
   for (std::size_t i = 0; i < matching.size(); ++i) x[0][i] += 2 * h, x[1][i] = -1e-8;
   faces.evaluate(x);
   ASSERT_NEAR(CohesiveFaces::broken_length(faces.interfaces()[0]), 4 * h, 1e-18);
   const auto pressed = [&](std::size_t i) { return faces.bonds(cloud).pressed[as<NodeIndex>(i)]; };
-  for (std::size_t i = 0; i < x[0].size(); ++i) EXPECT_NEAR(pressed(i), 1e-8, 1e-16) << i;
-  EXPECT_EQ(faces.part(x), nullptr);
-  for (std::size_t i = 0; i < x[0].size(); ++i) EXPECT_EQ(pressed(i), 0.0) << i;
+  const std::size_t of_faces = 2 * matching.size();
+  for (std::size_t i = 0; i < of_faces; ++i) EXPECT_NEAR(pressed(i), 1e-8, 1e-16) << i;
+  EXPECT_EQ(faces.part(cloud, x), nullptr);
+  for (std::size_t i = 0; i < of_faces; ++i) EXPECT_EQ(pressed(i), 0.0) << i;
 }
 
 } // namespace
