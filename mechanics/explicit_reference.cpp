@@ -3,6 +3,7 @@
 #include "core/index.hpp"
 #include "mechanics/explicit_solver.hpp"
 #include "mechanics/kinematics.hpp"
+#include "mechanics/ply_mixing.hpp"
 #include "plasticity/return_map.hpp"
 #include "thermal/conduction.hpp"
 
@@ -87,6 +88,7 @@ template<int dim> void ExplicitSolver<dim>::renew(Cloud<dim> cloud, const Resamp
     each([&](Term<dim>& term) { term.leave(body()); });
     if (change && change->open()) each([&](Term<dim>& term) { term.exchange(body(), *change, booked); });
     push_forward(point);
+    let_go_of_shear(model_.materials, point);
   }
   if (change || points_change) carry_over(change, points_change, rebuilt.mechanics);
   conditions_.cloud = std::move(cloud);

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace cnem {
 
@@ -146,6 +147,27 @@ void draw_back_plies(const PlyDeformation<dim>& plies, const std::vector<plastic
   }
 }
 
+template<int dim>
+void let_go_of_shear(const std::vector<plasticity::Material>& materials, PointState<dim>& point) {
+  if constexpr (dim == 2) {
+    if (!point.flowing.on() || !point.damaged.on()) return;
+    PlyDeformation<2> loose;
+    for (std::size_t p = 0; p < point.size(); ++p) {
+      const std::optional<plasticity::Orthotropic>& ply = materials[index_of(point.material[p])].ply;
+      if (!ply || ply->measure != plasticity::StrainMeasure::logarithmic || point.softening[p] < 1.0)
+        continue;
+      const Mat<2> before = earlier_at(point, p);
+      const double along = point.fibre_angle[p] - ply->angle;
+      const Mat<2> after = std::sqrt(before.determinant()) * turn(along);
+      const std::array<double, 3> had = in_axes(twice_log_stretch(before), ply->angle),
+                                  has = in_axes(twice_log_stretch(after), ply->angle);
+      for (std::size_t k = 0; k < 3; ++k) point.ply_flow[k][p] += has[k] - had[k];
+      loose.emplace_back(p, after);
+    }
+    set_plies(loose, {}, point);
+  }
+}
+
 template<int dim> void to_present_thickness(PointState<dim>& point) {
   for (std::size_t p = 0; p < point.thickness.size(); ++p)
     point.inverse_plastic_cauchy_green[2][p] *= point.thickness[p] * point.thickness[p];
@@ -163,6 +185,7 @@ template<int dim> void to_initial_thickness(PointState<dim>& point) {
   template void set_plies<dim>(const PlyDeformation<dim>&, const Field&, PointState<dim>&);                  \
   template void draw_back_plies<dim>(const PlyDeformation<dim>&, const std::vector<plasticity::Material>&,   \
                                      PointState<dim>&);                                                      \
+  template void let_go_of_shear<dim>(const std::vector<plasticity::Material>&, PointState<dim>&);            \
   template void to_present_thickness<dim>(PointState<dim>&);                                                 \
   template void to_initial_thickness<dim>(PointState<dim>&);
 CNEM_INSTANTIATE(2)

@@ -31,6 +31,13 @@ template<int dim>
 void draw_back_plies(const PlyDeformation<dim>& plies, const std::vector<plasticity::Material>& materials,
                      PointState<dim>& point);
 
+/// Lets go of how broken plies that flow have been sheared: their F₀ becomes √J R with the same change of
+/// area J and the fibre where it points, ε^p follows so that the elastic strain stays. They bear a pressure,
+/// which knows no more of F₀; with it debris that is sheared on and on has stretches of 10⁴, whose squares
+/// leave no digit of the smaller, and gives them to what it is mixed with. Expects F₀ pushed forward.
+template<int dim>
+void let_go_of_shear(const std::vector<plasticity::Material>& materials, PointState<dim>& point);
+
 /// In plane stress C_p⁻¹_zz is counted from the initial thickness: with that of the present one it is b_e, as
 /// mixing takes it, and back.
 template<int dim> void to_present_thickness(PointState<dim>& point);

@@ -1,5 +1,6 @@
 // Plies in the explicit step: plane waves, energies of breaking bars, new references and mixed points.
 #include "mechanics/ply_mixing.hpp"
+#include "plasticity/log_strain.hpp"
 #include "tests/degree.hpp"
 #include "tests/unit/mechanics/models.hpp"
 
@@ -283,6 +284,47 @@ TEST(Plies, the_gap_of_broken_matter_does_not_load_sound_matter_that_it_is_mixed
   // ½ E2 (mean of what is left) ε² is less than the mean of what the two stored
   EXPECT_LT(0.5 * (1.0 + 1e-4) * strain * strain,
             0.5 * (1e-4 * across[0] * across[0] + across[1] * across[1]));
+}
+
+/// Debris that is sheared on and on: the stretches stay those of its change of volume.
+TEST(Plies, that_are_broken_let_go_of_their_shear) {
+  PointState<2> point;
+  for (FieldTable* table : {&point.oriented, &point.fibrous, &point.flowing, &point.damaged})
+    table->switch_on(true);
+  for (FieldTable* table : {&point.table, &point.oriented, &point.fibrous, &point.flowing, &point.damaged})
+    table->rest(2);
+  const plasticity::Material ply = gfrp(0.3);
+  const Mat<2> F = (Mat<2>() << 0.9, 4.0, -0.2, 0.5).finished();
+  const auto earlier = [&](std::size_t p) {
+    const auto& f = point.earlier_deformation;
+    return (Mat<2>() << f[0][p], f[1][p], f[2][p], f[3][p]).finished();
+  };
+  const Vec2 fibre(std::cos(0.3), std::sin(0.3));
+  for (const std::size_t p : {0U, 1U}) {
+    for (std::size_t k = 0; k < 4; ++k) point.earlier_deformation[k][p] = F(as<int>(k / 2), as<int>(k % 2));
+    point.fibre_angle[p] = std::atan2((F * fibre).y(), (F * fibre).x());
+    for (std::size_t k = 0; k < 3; ++k) point.ply_flow[k][p] = 0.1 * static_cast<double>(k + 1);
+  }
+  point.softening[0] = 1.0, point.softening[1] = 0.999;
+  // ½ ln C − E^p in the axes of the ply
+  const auto elastic = [&](std::size_t p) {
+    const Mat<2> C = earlier(p).transpose() * earlier(p);
+    const auto twice = plasticity::logarithm<2>({C(0, 0), C(1, 1), 1.0, C(0, 1)});
+    const Mat<2> strain = 0.5 * (Mat<2>() << twice[0], twice[3], twice[3], twice[1]).finished();
+    const Mat<2> turn = Eigen::Rotation2Dd(0.3).toRotationMatrix();
+    const Mat<2> own = turn.transpose() * strain * turn;
+    return std::array{own(0, 0) - point.ply_flow[0][p], own(1, 1) - point.ply_flow[1][p],
+                      2.0 * own(0, 1) - point.ply_flow[2][p]};
+  };
+  const auto before = elastic(0);
+  let_go_of_shear<2>({ply}, point);
+  EXPECT_EQ(earlier(1), F);
+  EXPECT_NEAR(earlier(0).determinant(), F.determinant(), 1e-14);
+  EXPECT_LT((earlier(0).transpose() * earlier(0) - F.determinant() * Mat<2>::Identity()).norm(), 1e-14);
+  EXPECT_LT(((earlier(0) * fibre).normalized() - (F * fibre).normalized()).norm(), 1e-14);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(elastic(0)[k], before[k], 1e-13) << k;
+  EXPECT_NEAR(point.inverse_plastic_cauchy_green[0][0], F.determinant(), 1e-14);
+  EXPECT_NEAR(point.inverse_plastic_cauchy_green[3][0], 0.0, 1e-14);
 }
 
 } // namespace
