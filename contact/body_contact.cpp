@@ -1,5 +1,6 @@
 #include "contact/body_contact.hpp"
 
+#include "core/geometry/winding_number.hpp"
 #include "core/index.hpp"
 
 #include <algorithm>
@@ -63,12 +64,8 @@ bool faces(const Surface<2>& surface, BoundaryNodeIndex node, const Vec2& normal
 /// How often the boundary runs round x: the number of bodies there.
 int winding_number(const Surface<2>& surface, PlacesOnBoundary<2> position, const Vec2& x) {
   int turns = 0;
-  for (const auto& facet : surface.facets) {
-    const Vec2 &a = position[facet[0]], &b = position[facet[1]];
-    const double side = cross(b - a, x - a);
-    if (a.y() <= x.y() && b.y() > x.y() && side > 0.0) ++turns;
-    if (a.y() > x.y() && b.y() <= x.y() && side < 0.0) --turns;
-  }
+  for (const auto& facet : surface.facets)
+    turns += winding_of_edge(position[facet[0]], position[facet[1]], x);
   return turns;
 }
 

@@ -1,4 +1,5 @@
 // How faces that overlap, of cohesive interfaces and others, are set apart before a cloud is made of them.
+#include "core/geometry/winding_number.hpp"
 #include "core/index.hpp"
 #include "mechanics/boundary_parting.hpp"
 #include "mechanics/cohesive_faces.hpp"
@@ -45,13 +46,9 @@ void wish(Vec2& own, const Vec2& wanted) {
 /// number.
 int bodies_at(const Cloud<2>& cloud, const Fields<2>& position, const Vec2& x) {
   int turns = 0;
-  for (const Facet<2>& facet : cloud.facets) {
-    const Vec2 a = vector_at<2>(position, index_of(facet.node[0])),
-               b = vector_at<2>(position, index_of(facet.node[1]));
-    const double side = cross(b - a, x - a);
-    if (a.y() <= x.y() && b.y() > x.y() && side > 0.0) ++turns;
-    if (a.y() > x.y() && b.y() <= x.y() && side < 0.0) --turns;
-  }
+  for (const Facet<2>& facet : cloud.facets)
+    turns += winding_of_edge(vector_at<2>(position, index_of(facet.node[0])),
+                             vector_at<2>(position, index_of(facet.node[1])), x);
   return turns;
 }
 
