@@ -140,12 +140,8 @@ inline void fill_records(Field& field, std::size_t stride, const LevelRange& ran
 
 /// body(range) for all ranges, shared out to the threads. body must write only to its range.
 template<class Body> void for_each_range(const std::vector<LevelRange>& ranges, Body&& body) {
-  const auto count = static_cast<std::ptrdiff_t>(ranges.size());
-  if (count == 1) return body(ranges.front());
-  ParallelFailure failure;
-#pragma omp parallel for schedule(dynamic)
-  for (std::ptrdiff_t r = 0; r < count; ++r) failure.guard(r, [&] { body(ranges[index_of(r)]); });
-  failure.rethrow();
+  for_each_part(static_cast<std::ptrdiff_t>(ranges.size()),
+                [&](std::ptrdiff_t r) { body(ranges[index_of(r)]); });
 }
 
 /// Sum of body(range), added up in the order of the ranges.

@@ -2,9 +2,11 @@
 // Loops over nodes and stress points in fixed blocks: results do not depend on the number of threads.
 #include "core/index.hpp"
 
+#include <atomic>
 #include <cstddef>
 #include <exception>
 #include <mutex>
+#include <omp.h>
 #include <vector>
 
 namespace cnem {
@@ -37,18 +39,40 @@ private:
   std::ptrdiff_t part_ = 0;
 };
 
+/// body(part) for 0 … count - 1, shared out to the threads. Each begins with its own run of consecutive
+/// parts, which is the same in every loop: what it reads was mostly written by the core it runs on. One that
+/// is through takes over what others have left, since their cores may have other work. body must write only
+/// to its part.
+template<class Body> void for_each_part(std::ptrdiff_t count, Body&& body) {
+  if (count == 1) return body(std::ptrdiff_t{0}); // no barrier where there is nothing to share
+  const int threads = omp_get_max_threads();
+  constexpr std::size_t cache_line = 64;
+  struct alignas(cache_line) Run {
+    std::atomic<std::ptrdiff_t> next;
+    std::ptrdiff_t end;
+  };
+  std::vector<Run> runs(index_of(threads));
+  for (int t = 0; t < threads; ++t) {
+    runs[index_of(t)].next.store(count * t / threads, std::memory_order_relaxed);
+    runs[index_of(t)].end = count * (t + 1) / threads;
+  }
+  ParallelFailure failure;
+#pragma omp parallel
+  for (int k = 0, own = omp_get_thread_num(); k < threads; ++k) {
+    Run& run = runs[index_of((own + k) % threads)];
+    for (std::ptrdiff_t part; (part = run.next.fetch_add(1, std::memory_order_relaxed)) < run.end;)
+      failure.guard(part, [&] { body(part); });
+  }
+  failure.rethrow();
+}
+
 /// body(begin, end) for consecutive blocks of [0, n), shared out to the threads. body must write only to its
 /// block.
 template<class Body> void for_each_block(std::size_t n, Body&& body) {
-  const auto count = static_cast<std::ptrdiff_t>(blocks(n));
-  if (count == 1) return body(std::size_t{0}, n); // no barrier where there is nothing to share
-  ParallelFailure failure;
-#pragma omp parallel for schedule(static)
-  for (std::ptrdiff_t b = 0; b < count; ++b) {
+  for_each_part(static_cast<std::ptrdiff_t>(blocks(n)), [&](std::ptrdiff_t b) {
     const std::size_t begin = index_of(b) * block_size;
-    failure.guard(b, [&] { body(begin, begin + block_size < n ? begin + block_size : n); });
-  }
-  failure.rethrow();
+    body(begin, begin + block_size < n ? begin + block_size : n);
+  });
 }
 
 /// Sum of body(begin, end) over the blocks, added up in the order of the blocks.
