@@ -58,7 +58,7 @@ struct EdgeHit {
 template<int dim> class BodyContact {
 public:
   /// Of all boundaries to come.
-  void repeat(Repetition<dim> repetition) requires(dim == 3) { repetition_ = std::move(repetition); }
+  void repeat(Repetition<dim> repetition) { repetition_ = std::move(repetition); }
 
   /// Takes a boundary. group, ≥ 0: nodes that are tied have the same number; facets
   /// between tied nodes are no surface. Empty: none is tied.

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <ranges>
 #include <span>
 #include <vector>
 
@@ -125,8 +124,11 @@ void find_near(const BoxTree& things, Box<3> box, const Vec3& shift, std::vector
 }
 
 Box<3> box_of(PlacesOnBoundary<3> position, std::span<const BoundaryNodeIndex> nodes, double margin) {
-  Box<3> box = cnem::box_of<3>(
-      nodes | std::views::transform([&](BoundaryNodeIndex b) -> const Vec3& { return position[b]; }));
+  Box<3> box{position[nodes[0]], position[nodes[0]]};
+  for (const BoundaryNodeIndex b : nodes.subspan(1)) {
+    box.low = box.low.cwiseMin(position[b]);
+    box.high = box.high.cwiseMax(position[b]);
+  }
   box.low.array() -= margin;
   box.high.array() += margin;
   return box;

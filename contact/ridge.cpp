@@ -52,12 +52,13 @@ Ridge<3>::Place Ridge<3>::facing(const Vec3& x) const {
   return {origin + section.centre.x() * radial + section.centre.y() * v, radial, v.cross(radial)};
 }
 
-double Ridge<3>::distance(const Vec3& x) const {
+Vec2 Ridge<3>::across(const Vec3& x) const {
   const Vec3 from = x - origin;
   const double axial = from.dot(v);
-  const double radial = path == Path::circular ? (from - axial * v).norm() : from.dot(u);
-  return (Vec2(radial, axial) - section.centre).norm();
+  return {path == Path::circular ? (from - axial * v).norm() : from.dot(u), axial};
 }
+
+double Ridge<3>::distance(const Vec3& x) const { return (across(x) - section.centre).norm(); }
 
 double Ridge<3>::clearance(const Vec3& x) const {
   if (path == Path::corner) return (x - origin).norm();
@@ -70,8 +71,8 @@ double Ridge<3>::clearance(const Vec3& x) const {
   }
   const Place place = at(along);
   const Vec3 off = x - place.centre;
-  const Ridge<2> across{{0, 0}, section.radius, section.first, section.angle};
-  return std::hypot(across.distance({off.dot(place.u), off.dot(v)}), off.dot(place.tangent));
+  const Ridge<2> there{{0, 0}, section.radius, section.first, section.angle};
+  return std::hypot(there.distance({off.dot(place.u), off.dot(v)}), off.dot(place.tangent));
 }
 
 double Ridge<3>::turn_towards(const Vec3& x) const {

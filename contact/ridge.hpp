@@ -76,6 +76,8 @@ template<> struct Ridge<3> {
   Place facing(const Vec3& x) const;
   /// The same as an angle, rad in [0, 2π); may lie beyond its end.
   double turn_towards(const Vec3& x) const;
+  /// m, of x in the plane across the path, in the frame of the section, as if the path went on without end.
+  Vec2 across(const Vec3& x) const;
   /// m, of a point from the line or circle of the path, as if it went on without end; not of a corner.
   double distance(const Vec3& x) const;
   /// m, of a point from the surface of the ridge, which ends.

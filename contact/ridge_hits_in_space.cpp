@@ -15,6 +15,7 @@ namespace {
 constexpr double rounding = 1e-9;       ///< of the length of an edge
 constexpr double least_crossing = 0.05; ///< sine of the angle between an edge and a ridge that crosses it
 constexpr double most_overhang = 0.1;   ///< of the length of an edge
+constexpr double half_reach = 0.5 + most_overhang;
 
 /// Normals of facets are normals of an edge between them, and those a sixth of a turn beyond.
 const double beyond = std::numbers::pi / 6.0;
@@ -57,8 +58,21 @@ public:
     return {};
   }
 
+  /// Whether no point of it, with its overhang, is as near to the path as a crossing that counts.
   bool beyond_reach(const Ridge<3>& ridge) const {
-    return ridge.distance(a_ + 0.5 * along_) > ridge.reach(length_);
+    const Vec2 middle = ridge.across(a_ + 0.5 * along_);
+    const double far = (middle - ridge.section.centre).norm();
+    if (far > ridge.reach(length_)) return true;
+    if (ridge.path != Ridge<3>::Path::circular || middle.x() < 2.0 * half_reach * length_) return false;
+    // Seen along the circle it is nearly straight: radii bend by less than this.
+    const double bent =
+        0.5 * half_reach * half_reach * length_ * length_ / (middle.x() - half_reach * length_);
+    const Vec2 first = ridge.across(a_ - most_overhang * along_) - ridge.section.centre,
+               chord = ridge.across(a_ + (1.0 + most_overhang) * along_) - ridge.section.centre - first;
+    const double square = chord.squaredNorm(),
+                 s = square > 0.0 ? std::clamp(-first.dot(chord) / square, 0.0, 1.0) : 0.0;
+    const double least = (first + s * chord).norm() - bent;
+    return least > (1.0 + rounding) * std::max(ridge.section.radius, 0.5 * length_);
   }
 
 private:

@@ -187,10 +187,10 @@ std::optional<double> MillingProcess::left_at(std::size_t layer, double x) const
 std::optional<double> MillingProcess::left_beside(std::size_t layer, double way,
                                                   const DexelLayer& stock) const {
   assert(motion_.last_path());
-  const auto [at, along] = motion_.last_path()->at(way);
+  const auto place = motion_.last_path()->at(way);
   const double r = edges().radius(layer);
   const auto beside = [&](const DexelLayer& of) {
-    return of.matter(at, machined_side(along), cut_.cutter.radius() + beyond(cut_.cutter));
+    return of.matter(place.at, machined_side(place.along), cut_.cutter.radius() + beyond(cut_.cutter));
   };
   const std::vector<Interval> matter = beside(layer_[layer]);
   const auto side = std::min_element(matter.begin(), matter.end(), [r](const Interval& a, const Interval& b) {
