@@ -189,7 +189,8 @@ private:
   /// than some of h, or beyond it; where none is, all of the facet by what they have in common.
   void leave_face(const Pair& pair, bool back_to_back, IndexedVector<NodeIndex, Vec3>& way) const {
     constexpr double clearance = 0.2, at_once = 0.3, more = 1.2; // h, h, of the overlap
-    const auto [f, g] = on_seam(pair[0]) ? pair : Pair{pair[1], pair[0]};
+    const bool first = on_seam(pair[0]);
+    const CloudFacetIndex f = first ? pair[0] : pair[1], g = first ? pair[1] : pair[0];
     const double above = back_to_back ? 1.0 : -1.0;
     const Vec3 n = -above * normal(g).normalized();
     const auto lacking = [&](NodeIndex i) {

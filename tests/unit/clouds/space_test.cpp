@@ -70,7 +70,7 @@ TEST(SpaceClouds, EncloseTheBodyAndTriangulateWithTheirBoundary) {
 TEST(SpaceClouds, VolumeConvergesQuadratically) {
   const Body ball = bodies()[5];
   std::array<double, 2> error;
-  for (const std::size_t k : {0, 1})
+  for (const std::size_t k : {0u, 1u})
     error[k] = 1.0 - enclosed_measure(surface_of(ball.domain, {0.3 / (1.0 + double(k)), {}})) / ball.volume;
   EXPECT_GT(error[0] / error[1], 3.0);
   EXPECT_LT(error[1], 0.012);

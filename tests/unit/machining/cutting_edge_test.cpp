@@ -237,7 +237,9 @@ TEST(CuttingEdge, RefusesWhatIsNoRakeFace) {
 /// radius of 1 mm, within a row of its face.
 TEST(CuttingEdge, HasTheLobesOfItsCutter) {
   using enum Engagement::Side;
-  for (const auto& [corner, side] : {std::pair{0.0, up}, {2e-3, down}, {5e-3, down}}) {
+  for (const auto& rounded : {std::pair{0.0, up}, {2e-3, down}, {5e-3, down}}) {
+    const double corner = rounded.first;
+    const auto side = rounded.second;
     MillingCut cut = milling_cut(3, 2e9, 8e8, side, 0.4);
     cut.cutter = formed(corner);
     cut.engagement.radial_depth = 4e-3;
@@ -252,7 +254,7 @@ TEST(CuttingEdge, HasTheLobesOfItsCutter) {
       return floquet && zero ? std::array{floquet->depth, zero->depth} : std::array{0.0, 0.0};
     };
     const auto given = limits(cut), of_face = limits(by_face);
-    for (const std::size_t k : {0, 1}) EXPECT_NEAR(of_face[k] / given[k], 1.0, 2e-3) << corner << ' ' << k;
+    for (const std::size_t k : {0u, 1u}) EXPECT_NEAR(of_face[k] / given[k], 1.0, 2e-3) << corner << ' ' << k;
   }
 }
 
