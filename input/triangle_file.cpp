@@ -2,6 +2,7 @@
 
 #include "core/error.hpp"
 #include "core/fnv.hpp"
+#include "core/geometry/triangle_surface.hpp"
 
 #include <filesystem>
 #include <fmt/format.h>
@@ -49,7 +50,7 @@ std::optional<FacetSoup> read_triangles(Setting& stl, const std::string& case_pa
   }
   if (!take_checksum(stl, "file", *bytes, diagnostics)) return std::nullopt;
   try {
-    return parse_stl(*bytes, stl.get<double>("unit"));
+    return welded(parse_stl(*bytes, stl.get<double>("unit")));
   } catch (const InputError& error) {
     const Setting& named = *stl.find("file");
     diagnostics.add(Mistake::reference, named.where, named.path, fmt::format("{}: {}", path, error.what()));

@@ -1,8 +1,10 @@
 #include "clouds/space/faceted.hpp"
 
 #include "clouds/space/facet_tree.hpp"
+#include "core/geometry/box.hpp"
 #include "core/geometry/facets.hpp"
 #include "core/geometry/place_text.hpp"
+#include "core/geometry/triangle_surface.hpp"
 #include "core/index.hpp"
 #include "voronoi/space/crossings.hpp"
 #include "voronoi/space/remesh.hpp"
@@ -23,51 +25,23 @@ std::string facet_text(std::size_t number, const std::array<Vec3, 3>& x) {
                      place_text(x[2]));
 }
 
-/// Numbers of corners, those within `tolerance` of each other the same.
-class Merger {
-public:
-  explicit Merger(double tolerance) : tolerance_(tolerance) {}
-
-  NodeIndex operator()(const Vec3& x, IndexedVector<NodeIndex, Vec3>& position) {
-    std::array<std::int64_t, 3> cell;
-    for (int k = 0; k < 3; ++k)
-      cell[index_of(k)] = static_cast<std::int64_t>(std::floor(x[k] / (4.0 * tolerance_)));
-    for (std::int64_t dx = -1; dx <= 1; ++dx)
-      for (std::int64_t dy = -1; dy <= 1; ++dy)
-        for (std::int64_t dz = -1; dz <= 1; ++dz)
-          if (const auto found = nodes_.find({cell[0] + dx, cell[1] + dy, cell[2] + dz});
-              found != nodes_.end())
-            for (const NodeIndex i : found->second)
-              if ((position[i] - x).squaredNorm() <= tolerance_ * tolerance_) return i;
-    const NodeIndex node = position.next();
-    position.push_back(x);
-    nodes_[cell].push_back(node);
-    return node;
-  }
-
-private:
-  double tolerance_;
-  std::map<std::array<std::int64_t, 3>, std::vector<NodeIndex>> nodes_;
-};
-
 /// The facets as a closed surface, each solid a piece. Corners closer than a millionth of the size are one,
 /// and facets that thereby lose their area go.
 Cloud<3> merged(const FacetSoup& soup) {
   if (soup.triangles.empty()) throw GeometryError("the surface has no facets");
-  Vec3 low = soup.triangles.front().corner[0], high = low;
   for (std::size_t f = 0; f < soup.triangles.size(); ++f)
     for (const Vec3& x : soup.triangles[f].corner) {
       if (!x.allFinite()) throw GeometryError(fmt::format("facet {} has a corner that is not finite", f + 1));
-      low = low.cwiseMin(x);
-      high = high.cwiseMax(x);
     }
-  const double size = (high - low).norm();
-  Merger merge(1e-6 * size);
+  const TriangleSurface corners = numbered_corners(soup);
+  const Box<3> box = box_of<3>(corners.points);
+  const double size = (box.high - box.low).norm();
   Cloud<3> surface;
+  surface.position.assign(corners.points.begin(), corners.points.end());
   for (std::size_t f = 0; f < soup.triangles.size(); ++f) {
     const auto& triangle = soup.triangles[f];
     Facet<3> facet{{}, as<PieceIndex>(triangle.solid)};
-    for (std::size_t k = 0; k < 3; ++k) facet.node[k] = merge(triangle.corner[k], surface.position);
+    for (std::size_t k = 0; k < 3; ++k) facet.node[k] = as<NodeIndex>(corners.triangles[f][k]);
     if (facet.node[0] == facet.node[1] || facet.node[1] == facet.node[2] || facet.node[2] == facet.node[0])
       continue;
     if (!(area_normal<3>(triangle.corner).norm() > 1e-14 * size * size))

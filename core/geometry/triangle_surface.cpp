@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fmt/format.h>
 #include <map>
 #include <tuple>
@@ -34,6 +35,41 @@ std::string list(const TriangleSurface& surface, std::vector<std::size_t> triang
     text += (k > 0 ? ", " : "") + describe(surface, triangles[k]);
   return text + (triangles.size() > 3 ? fmt::format(" and {} more", triangles.size() - 3) : "");
 }
+
+/// Numbers of corners, those within `tolerance` of each other the same.
+class Merger {
+public:
+  Merger(const Vec3& low, double tolerance) : low_(low), tolerance_(tolerance) {}
+
+  std::int32_t operator()(const Vec3& x, std::vector<Vec3>& points) {
+    const Cell from = cell_of(x, -tolerance_), to = cell_of(x, tolerance_);
+    for (std::int64_t i = from[0]; i <= to[0]; ++i)
+      for (std::int64_t j = from[1]; j <= to[1]; ++j)
+        for (std::int64_t k = from[2]; k <= to[2]; ++k)
+          if (const auto found = numbers_.find({i, j, k}); found != numbers_.end())
+            for (const std::int32_t n : found->second)
+              if ((points[index_of(n)] - x).squaredNorm() <= tolerance_ * tolerance_) return n;
+    const auto number = as<std::int32_t>(points.size());
+    points.push_back(x);
+    numbers_[cell_of(x, 0.0)].push_back(number);
+    return number;
+  }
+
+private:
+  using Cell = std::array<std::int64_t, 3>;
+
+  Cell cell_of(const Vec3& x, double further) const {
+    Cell cell{};
+    for (int k = 0; k < 3 && tolerance_ > 0.0; ++k)
+      cell[index_of(k)] =
+          static_cast<std::int64_t>(std::floor((x[k] - low_[k] + further) / (4.0 * tolerance_)));
+    return cell;
+  }
+
+  Vec3 low_;
+  double tolerance_;
+  std::map<Cell, std::vector<std::int32_t>> numbers_;
+};
 
 } // namespace
 
@@ -82,6 +118,29 @@ void check_closed(const TriangleSurface& surface) {
   if (!(surface.volume() > 0.0))
     throw GeometryError(fmt::format("the surface is inside out: its normals enclose {:.6g} m³, triangle {}",
                                     surface.volume(), describe(surface, 0)));
+}
+
+TriangleSurface numbered_corners(const FacetSoup& soup) {
+  Vec3 low = soup.triangles.front().corner[0], high = low;
+  for (const FacetSoup::Triangle& facet : soup.triangles)
+    for (const Vec3& x : facet.corner) {
+      low = low.cwiseMin(x);
+      high = high.cwiseMax(x);
+    }
+  Merger merge(low, 1e-6 * (high - low).norm());
+  TriangleSurface surface;
+  surface.triangles.reserve(soup.triangles.size());
+  for (const FacetSoup::Triangle& facet : soup.triangles) {
+    std::array<std::int32_t, 3>& triangle = surface.triangles.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) triangle[k] = merge(facet.corner[k], surface.points);
+  }
+  return surface;
+}
+
+FacetSoup welded(FacetSoup soup) {
+  const TriangleSurface surface = numbered_corners(soup);
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t) soup.triangles[t].corner = surface.corners(t);
+  return soup;
 }
 
 TriangleSurface joined(const FacetSoup& soup) {

@@ -27,6 +27,13 @@ struct TriangleSurface {
 /// positive. O(n log n).
 void check_closed(const TriangleSurface& surface);
 
+/// The corners of all triangles as points, in the order in which they come first: those closer than a
+/// millionth of the size of the soup are one, as what wrote them may have rounded them. Expects triangles.
+TriangleSurface numbered_corners(const FacetSoup& soup);
+
+/// The soup with corners that numbered_corners takes for one at the same place, for files of triangles.
+FacetSoup welded(FacetSoup soup);
+
 /// Corners with the same coordinates are one point; triangles with two of these are left out.
 TriangleSurface joined(const FacetSoup& soup);
 

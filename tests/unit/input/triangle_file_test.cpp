@@ -64,6 +64,18 @@ TEST_F(TriangleFile, of_a_tool_is_read_once) {
   EXPECT_NEAR(tool_surface(solid, {{0, 0, 0}, {1, 1, 1}}).volume(), 16e-18, 1e-24);
 }
 
+// A seam that closes a round surface by sines and cosines meets its other side to rounding only.
+TEST_F(TriangleFile, of_a_tool_is_welded_as_that_of_a_workpiece) {
+  std::string text = cnem::testing::stl_box({0, 0, 0}, {4, 2, 2});
+  const std::string corner = "vertex 4 2 2\n";
+  text.replace(text.find(corner), corner.size(), "vertex 4 1.9999999999999998 2\n");
+  std::ofstream(file) << text;
+  EXPECT_EQ(read(workpiece).domain.faceted_pieces.size(), 6U);
+  const TriangleSurface surface = tool_surface(*read(tool).tools.at(0).solid, {{0, 0, 0}, {1, 1, 1}});
+  EXPECT_EQ(surface.points.size(), 8U);
+  EXPECT_NO_THROW(check_closed(surface));
+}
+
 TEST_F(TriangleFile, is_known_by_its_content_in_resolved_cases) {
   for (const auto& [body, key] : {std::pair{tool, "tools.punch.stl"}, {workpiece, "domain.stl"}}) {
     write(2.0);
