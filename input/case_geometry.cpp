@@ -174,7 +174,7 @@ void read_domain(Setting& root, Case& result, Diagnostics& diagnostics) {
   if (file) read_faceted(*file, result, diagnostics);
   if (block || file) return domain.in_space() ? check_points(root, domain, diagnostics) : void();
   if (extrude) domain.sweep = read_extrusion(*extrude, diagnostics);
-  if (revolve) domain.sweep = read_revolution(*revolve);
+  if (revolve) domain.sweep = read_revolution(*revolve, diagnostics);
   const auto outer = read_outline(*table.find("outer"), {"outer", true}, diagnostics);
   bool complete = outer.has_value();
   if (outer) domain.outer = *outer;

@@ -21,7 +21,7 @@ Block read_block(const Setting& table, Diagnostics& diagnostics);
 /// What draws or turns outlines into a body in space, and a body from an STL file (into Case::domain; nothing
 /// where the file is at fault).
 Sweep read_extrusion(const Setting& table, Diagnostics& diagnostics);
-Sweep read_revolution(const Setting& table);
+Sweep read_revolution(const Setting& table, Diagnostics& diagnostics);
 void read_faceted(Setting& table, Case& result, Diagnostics& diagnostics);
 ToolSolid read_solid(Setting& table, const Case& input, Diagnostics& diagnostics);
 /// The curve of a table with an outline; a wrong one is a mistake: then none.

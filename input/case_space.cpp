@@ -21,8 +21,17 @@ namespace cnem::input {
 
 namespace {
 
+/// As names of outlines, and those with a '+' that pieces in space have of themselves.
+void check_piece_name(const Setting& setting, Diagnostics& diagnostics) {
+  const auto& name = std::get<std::string>(setting.value);
+  if (name == "x+" || name == "y+" || name == "z+" || name == "theta+") return;
+  if (const std::string fault = fault_of_piece_name(name); !fault.empty())
+    diagnostics.add(Mistake::type, setting.where, setting.path, fault);
+}
+
 /// Names of the ends, as written.
-std::array<std::string, 2> end_names(const Setting& table) {
+std::array<std::string, 2> end_names(const Setting& table, Diagnostics& diagnostics) {
+  for (const char* end : {"low", "high"}) check_piece_name(*table.find(end), diagnostics);
   return {table.get<std::string>("low"), table.get<std::string>("high")};
 }
 
@@ -74,7 +83,7 @@ Sweep read_extrusion(const Setting& table, Diagnostics& diagnostics) {
   Sweep sweep;
   sweep.from = table.get<double>("from");
   sweep.to = table.get<double>("to");
-  sweep.ends = end_names(table);
+  sweep.ends = end_names(table, diagnostics);
   if (const Setting& to = *table.find("to"); !(sweep.to > sweep.from))
     diagnostics.add(Mistake::geometry, to.where, to.path,
                     fmt::format("an outline drawn from z = {:g} to {:g} m has no volume, expected from < to",
@@ -82,12 +91,12 @@ Sweep read_extrusion(const Setting& table, Diagnostics& diagnostics) {
   return sweep;
 }
 
-Sweep read_revolution(const Setting& table) {
+Sweep read_revolution(const Setting& table, Diagnostics& diagnostics) {
   Sweep sweep;
   sweep.turned = true;
   sweep.angle = table.get<double>("angle");
   sweep.origin = table.vector("origin");
-  sweep.ends = end_names(table);
+  sweep.ends = end_names(table, diagnostics);
   return sweep;
 }
 
@@ -97,8 +106,10 @@ void read_faceted(Setting& table, Case& result, Diagnostics& diagnostics) {
   const Setting& file = *table.find("file");
   clouds::Faceted faceted;
   faceted.crease_angle = table.get<double>("crease_angle");
-  for (const Setting& entry : table.find("names") ? table.find("names")->members : std::vector<Setting>{})
+  for (const Setting& entry : table.find("names") ? table.find("names")->members : std::vector<Setting>{}) {
+    check_piece_name(*entry.find("name"), diagnostics);
     faceted.names.push_back({entry.vector("at"), entry.get<std::string>("name")});
+  }
   try {
     faceted.soup = std::move(*soup);
     const Vec3 shift = table.vector("shift");

@@ -216,6 +216,14 @@ void rotate(Curve& curve, double angle, const Vec2& centre) {
 
 } // namespace
 
+std::string fault_of_piece_name(const std::string& name) {
+  if (valid_name(name) && name != "all") return "";
+  return fmt::format(
+      "found a piece named {}, expected a name of at most {} letters, digits, '_' and '-', and "
+      "not \"all\", which stands for every piece",
+      toml_quoted(shortened(name)), longest_name);
+}
+
 Curve split_long_arcs(const Curve& curve) {
   Curve result;
   for (const CurvePiece& piece : curve.pieces) {
@@ -249,11 +257,8 @@ Curve make_outline(const Setting& table, const OutlineNames& names) {
         form,
         fmt::format("the outline crosses or touches itself at {}, expected a simple curve", show(*point)));
   for (const CurvePiece& piece : curve.pieces)
-    if (!valid_name(piece.name) || piece.name == "all")
-      throw OutlineError(form,
-                         fmt::format("found a piece named {}, expected a name of at most {} letters, digits, "
-                                     "'_' and '-', and not \"all\", which stands for every piece",
-                                     toml_quoted(shortened(piece.name)), longest_name));
+    if (const std::string fault = fault_of_piece_name(piece.name); !fault.empty())
+      throw OutlineError(form, fault);
   const double size = extent(curve);
   if (!(std::abs(curve.area()) > 1e-9 * size * size))
     throw OutlineError(form, "the outline encloses no area, expected at least three corners or an arc");

@@ -21,6 +21,9 @@ struct OutlineNames {
   bool sides_of_rectangle = false; ///< rectangles have bottom, right, top, left; else the curve's name
 };
 
+/// What is wrong with a name that a piece of the boundary is given; "" when it is good.
+std::string fault_of_piece_name(const std::string& name);
+
 /// The counter-clockwise curve of a table with `start` and `path`, or `rectangle`, or `circle`. Arcs longer
 /// than half a turn are split in two of the same name. Throws OutlineError: several or no forms given,
 /// pieces without length, arcs whose ends are not on a circle, fillets that do not fit, a curve that crosses
