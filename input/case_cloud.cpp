@@ -1,4 +1,5 @@
 // The nodes of a case: spacing, refinements, node lists; and the windows of its pictures.
+#include "core/geometry/box.hpp"
 #include "input/case_parts.hpp"
 #include "input/case_walls.hpp"
 #include "input/curve_checks.hpp"
@@ -121,6 +122,46 @@ void check_reach(const Setting& table, const clouds::Refinement& refinement, con
           away, there, cloud.spacing));
 }
 
+/// Distance between a refinement and the box around the workpiece, m: no more than to the workpiece.
+double gap_in_space(const clouds::SpaceRefinement& refinement, const Box<3>& around) {
+  const auto away = [&](const Box<3>& from) {
+    return Vec3((from.low - around.high).cwiseMax(around.low - from.high).cwiseMax(0.0)).norm();
+  };
+  const std::vector<Vec3>& points = refinement.points;
+  if (refinement.region == clouds::SpaceRefinement::Region::box) return away(box_of<3>(points));
+  double least = away({points[0], points[0]});
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    const auto at = [&](double t) {
+      const Vec3 x = points[k - 1] + t * (points[k] - points[k - 1]);
+      return away({x, x});
+    };
+    double low = 0.0, high = 1.0; // along a segment the distance from what is convex is convex
+    while (high - low > 1e-12) {
+      const double third = (high - low) / 3.0;
+      if (at(low + third) < at(high - third))
+        high -= third;
+      else
+        low += third;
+    }
+    least = std::min({least, at(low), at(1.0)});
+  }
+  return least;
+}
+
+/// As check_reach.
+void check_reach_in_space(const Setting& region, const clouds::SpaceRefinement& refinement, const Case& input,
+                          Diagnostics& diagnostics) {
+  const auto [low, high] = space_bounds(input.domain);
+  const double away = gap_in_space(refinement, {low, high}),
+               there = refinement.spacing + refinement.growth * away;
+  if (away <= 1e-9 * (high - low).norm() || there < input.cloud.spacing) return;
+  diagnostics.add(
+      Mistake::geometry, region.where, region.path,
+      fmt::format("lies {:.3g} m outside the box around the workpiece, where its spacing has grown to {:.3g} "
+                  "m, expected a place that makes the cloud finer than cloud.spacing = {:.3g} m somewhere",
+                  away, there, input.cloud.spacing));
+}
+
 /// A spacing that makes neighbours of nodes on opposite sides is a slip of the unit.
 void check_spacing(const Setting& spacing, const Domain& domain, Diagnostics& diagnostics) {
   const double size = extent(domain.outer), given = std::get<double>(spacing.value);
@@ -158,6 +199,8 @@ void read_space_refinements(const Setting& table, Case& result, Diagnostics& dia
                       box ? "expected two opposite corners" : "found no points, expected at least one");
     refinement.spacing = spacing ? std::get<double>(spacing->value)
                                  : entry.maybe<double>("factor").value_or(1.0) * result.cloud.spacing;
+    const bool complete = box ? refinement.points.size() == 2 : !refinement.points.empty();
+    if (complete) check_reach_in_space(*place, refinement, result, diagnostics);
     result.cloud.space_refinements.push_back(std::move(refinement));
   }
 }
