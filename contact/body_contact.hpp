@@ -81,7 +81,12 @@ public:
   void find(const Surface<dim>& surface, PlacesOnBoundary<dim> start, PlacesOnBoundary<dim> end,
             std::vector<FacetHit<dim>>& hits) const;
 
-  /// In space: the same of edges that crossed between their nodes, in the order of the edges.
+  /// Appends for each node the facet that it is nearest to of those whose gap is at most `closed` times their
+  /// size, with its weights and normal. After `look`.
+  void find_closed(const Surface<dim>& surface, PlacesOnBoundary<dim> position, double closed,
+                   std::vector<FacetHit<dim>>& hits) const;
+
+  /// In space: as `find`, of edges that crossed between their nodes, in the order of the edges.
   void find_edges(const Surface<dim>& surface, PlacesOnBoundary<dim> start, PlacesOnBoundary<dim> end,
                   std::vector<EdgeHit>& hits) const; // only in space
 
@@ -127,6 +132,12 @@ template<> void BodyContact<2>::list(const Surface<2>& surface);
 template<>
 void BodyContact<2>::find(const Surface<2>& surface, PlacesOnBoundary<2> start, PlacesOnBoundary<2> end,
                           std::vector<FacetHit<2>>& hits) const;
+template<>
+void BodyContact<2>::find_closed(const Surface<2>& surface, PlacesOnBoundary<2> position, double closed,
+                                 std::vector<FacetHit<2>>& hits) const;
+template<>
+void BodyContact<3>::find_closed(const Surface<3>& surface, PlacesOnBoundary<3> position, double closed,
+                                 std::vector<FacetHit<3>>& hits) const;
 template<> void BodyContact<3>::list(const Surface<3>& surface);
 template<>
 void BodyContact<3>::list_edges(const Surface<3>& surface, const BoxTree& facets,

@@ -356,6 +356,28 @@ void BodyContact<3>::find(const Surface<3>& surface, PlacesOnBoundary<3> start, 
 }
 
 template<>
+void BodyContact<3>::find_closed(const Surface<3>& surface, PlacesOnBoundary<3> position, double closed,
+                                 std::vector<FacetHit<3>>& hits) const {
+  for (std::size_t first = 0; first < pairs_.size();) {
+    const BoundaryNodeIndex b = pairs_[first].node;
+    FacetHit<3> nearest;
+    double least = skin_;
+    for (; first < pairs_.size() && pairs_[first].node == b; ++first) {
+      const auto& [node, f, shift] = pairs_[first];
+      const FacetView facet(surface, f, position);
+      const Vec3 x = position[b] - shift;
+      const double gap = facet.gap(x);
+      if (gap > closed * facet.size || std::abs(gap) >= least) continue;
+      const auto place = facet.weights(x);
+      if (!inside(place, overhang) || !faces(surface, side_, b, facet.normal, position)) continue;
+      least = std::abs(gap);
+      nearest = {b, f, clamped(place), facet.normal};
+    }
+    if (least < skin_) hits.push_back(nearest);
+  }
+}
+
+template<>
 void BodyContact<3>::find_edges(const Surface<3>& surface, PlacesOnBoundary<3> start, PlacesOnBoundary<3> end,
                                 std::vector<EdgeHit>& hits) const {
   for (const EdgePair& pair : wide_ ? edge_pairs_ : near_edges_) {

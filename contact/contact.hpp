@@ -80,8 +80,7 @@ template<int dim> struct BodyResult {
 template<int dim> struct ContactPoint {
   NodeIndex node{};
   ToolIndex tool{};
-  double area = 0.0;   ///< m^(dim−1), tributary, current
-  double facing = 0.0; ///< m^(dim−1), what of it faces the tool: half an edge at a corner
+  double area = 0.0; ///< m^(dim−1), tributary, current, of what faces the tool: half an edge at a corner
 };
 
 /// Friction heat that a tool took from where a boundary node touches it.
@@ -237,7 +236,7 @@ private:
   void share_out(std::vector<Contact<dim>>& contacts, std::vector<Twin>& twins, const Field& mass) const;
   template<class Area>
   void set_friction(Contact<dim>& contact, const ContactStep<dim>& step, Area&& rubbing_area) const;
-  double rubbing_area(BoundaryNodeIndex node, BoundaryValues window) const;
+  double rubbing_area(BoundaryNodeIndex node, const Vec<dim>& normal, BoundaryValues window) const;
   const Friction& friction_of(const Contact<dim>& contact, const ContactStep<dim>& step) const;
   void share_heat(const Contact<dim>& contact, double heat, const ContactStep<dim>& step);
   void scatter(const ContactStep<dim>& step);

@@ -101,31 +101,24 @@ template<int dim> void RigidContact<dim>::list_points() {
     for (std::size_t a = 0; a < Contact<dim>::slots; ++a)
       if (contact.weight[a] != 0.0 && contact.pressing > 0.0 && exists(contact.tool))
         points_.push_back({surface_.node[contact.node[a]], contact.tool,
-                           surface_.area(contact.node[a], end_, space_),
                            surface_.area_against(contact.node[a], contact.normal, end_, space_)});
   merge_points();
 }
 
-/// Pairs that would have gone through each other and are now closed. Which of several redundant ones bear the
-/// impulse says nothing about touching.
+/// Pairs that are closed at the end of the step: which of several redundant ones bear, and which of them a
+/// step looks at, says nothing about touching.
 template<int dim> void RigidContact<dim>::list_touches() {
   touches_.clear();
   if (law_.conductance == 0.0) return;
   constexpr double closed = 1e-3; // of the facet
-  for (const Contact<dim>& contact : contacts_) {
-    if (exists(contact.tool) || contact.feature != 0) continue; // edges touch beside nodes that do
+  std::vector<FacetHit<dim>> hits;
+  bodies_.find_closed(surface_, end_, closed, hits);
+  for (const FacetHit<dim>& hit : hits) {
     BodyTouch<dim> touch;
-    for (std::size_t a = 0; a < dim; ++a) {
-      touch.facet[a] = surface_.node[contact.node[a + 1]];
-      touch.weight[a] = -contact.weight[a + 1];
-    }
-    const double length = (end_[contact.node[1]] - end_[contact.node[2]]).norm();
-    const Vec<dim> apart = at_contact(contact, [&](BoundaryNodeIndex b) { return end_[b]; }) - contact.shift;
-    const double gap = contact.normal.dot(apart);
-    if (gap > closed * length) continue;
-    const BoundaryNodeIndex node = contact.node[0];
-    touch.node = surface_.node[node];
-    touch.area = 0.5 * surface_.area_against(node, contact.normal, end_, space_);
+    touch.node = surface_.node[hit.node];
+    for (std::size_t a = 0; a < dim; ++a) touch.facet[a] = surface_.node[surface_.facets[hit.facet][a]];
+    touch.weight = hit.weight;
+    touch.area = 0.5 * surface_.area_against(hit.node, hit.normal, end_, space_);
     touches_.push_back(touch);
   }
 }

@@ -29,7 +29,7 @@ Contact<dim> RigidContact<dim>::on_face(ToolIndex tool, BoundaryNodeIndex node, 
   contact.node[0] = node;
   contact.weight[0] = 1.0;
   contact.normal = at.normal;
-  set_friction(contact, step, [&] { return rubbing_area(node, step.window); });
+  set_friction(contact, step, [&] { return rubbing_area(node, contact.normal, step.window); });
   return contact;
 }
 
@@ -108,7 +108,7 @@ bool RigidContact<dim>::find_on_ridges(const Poses<dim>& poses, const ContactSte
                                std::any_of(twins_.begin(), twins_.end(),
                                            [&](const Twin& twin) { return is_face(twin.contact); });
           if (contact.weight[a] != 0.0 && !on_face)
-            area += contact.weight[a] * rubbing_area(contact.node[a], step.window);
+            area += contact.weight[a] * rubbing_area(contact.node[a], contact.normal, step.window);
         }
         return area;
       });
@@ -119,10 +119,11 @@ bool RigidContact<dim>::find_on_ridges(const Poses<dim>& poses, const ContactSte
   return any;
 }
 
-/// m^(dim−1), of a node, times its window.
+/// m^(dim−1), of a node in what faces against a normal, times its window.
 template<int dim>
-double RigidContact<dim>::rubbing_area(BoundaryNodeIndex node, BoundaryValues window) const {
-  return surface_.area(node, end_, space_) * (window.empty() ? 1.0 : window[node]);
+double RigidContact<dim>::rubbing_area(BoundaryNodeIndex node, const Vec<dim>& normal,
+                                       BoundaryValues window) const {
+  return surface_.area_against(node, normal, end_, space_) * (window.empty() ? 1.0 : window[node]);
 }
 
 template<int dim>
@@ -147,7 +148,7 @@ bool RigidContact<dim>::find_on_bodies(const Poses<dim>& poses, const ContactSte
     contact.normal = hit.normal;
     set_friction(contact, step, [&] {
       // The forces of either side may arrive alone; over a macro step each has the same windows in all.
-      const double area = surface_.area(hit.node, end_, space_);
+      const double area = surface_.area_against(hit.node, hit.normal, end_, space_);
       if (step.window.empty()) return area;
       double both = step.window[hit.node];
       for (std::size_t a = 0; a < dim; ++a) both += hit.weight[a] * step.window[ends[a]];
@@ -178,7 +179,8 @@ bool RigidContact<dim>::find_on_edges(const Pose<dim>& rest,
     set_friction(contact, step, [&] { // of a quarter of each end: its facets touch elsewhere too
       double area = 0.0;
       for (std::size_t a = 0; a < 4; ++a)
-        area += 0.125 * std::abs(contact.weight[a]) * rubbing_area(contact.node[a], step.window);
+        area += 0.125 * std::abs(contact.weight[a]) *
+                rubbing_area(contact.node[a], a < 2 ? hit.normal : Vec3(-hit.normal), step.window);
       return area;
     });
     any |= add(contact, hit.start, hit.clearance + hit.normal.dot(contact.shift), rest, step);
@@ -188,7 +190,7 @@ bool RigidContact<dim>::find_on_edges(const Pose<dim>& rest,
 
 template const Friction& RigidContact<2>::friction_of(const Contact<2>&, const ContactStep<2>&) const;
 template bool RigidContact<2>::stands(ToolIndex) const;
-template double RigidContact<2>::rubbing_area(BoundaryNodeIndex, BoundaryValues) const;
+template double RigidContact<2>::rubbing_area(BoundaryNodeIndex, const Vec2&, BoundaryValues) const;
 template Contact<2> RigidContact<2>::on_face(ToolIndex, BoundaryNodeIndex, const SurfacePoint<2>&,
                                              const ContactStep<2>&) const;
 template bool RigidContact<2>::find_on_faces(const Poses<2>&, const ContactStep<2>&);
@@ -196,7 +198,7 @@ template bool RigidContact<2>::find_on_ridges(const Poses<2>&, const ContactStep
 template bool RigidContact<2>::find_on_bodies(const Poses<2>&, const ContactStep<2>&);
 template const Friction& RigidContact<3>::friction_of(const Contact<3>&, const ContactStep<3>&) const;
 template bool RigidContact<3>::stands(ToolIndex) const;
-template double RigidContact<3>::rubbing_area(BoundaryNodeIndex, BoundaryValues) const;
+template double RigidContact<3>::rubbing_area(BoundaryNodeIndex, const Vec3&, BoundaryValues) const;
 template Contact<3> RigidContact<3>::on_face(ToolIndex, BoundaryNodeIndex, const SurfacePoint<3>&,
                                              const ContactStep<3>&) const;
 template bool RigidContact<3>::find_on_faces(const Poses<3>&, const ContactStep<3>&);

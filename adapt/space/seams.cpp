@@ -1,5 +1,6 @@
 #include "adapt/space/seams.hpp"
 
+#include "core/geometry/cell_complex.hpp"
 #include "core/geometry/facets.hpp"
 #include "core/index.hpp"
 #include "voronoi/space/crossings.hpp"

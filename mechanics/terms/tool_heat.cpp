@@ -109,7 +109,7 @@ private:
     if (conductance == 0.0) return;
     for (const contact::ContactPoint<2>& touch : body.conditions.contact.points())
       if (touch.tool == section.tool)
-        passages_.push_back({touch.node, face_at(body, section, touch.node), conductance * touch.facing});
+        passages_.push_back({touch.node, face_at(body, section, touch.node), conductance * touch.area});
   }
 
   void take_friction_heat(const Body<2>& body, const ToolSection<2>& section, Field& temperature) {

@@ -93,6 +93,28 @@ std::vector<double> kept_forces(SpaceMasses& scene) {
 
 } // namespace
 
+// Heat passes where faces are closed, whichever of the redundant pairs bear.
+TEST(SpaceBodies, all_of_a_face_that_is_closed_touches) {
+  SpaceMasses scene = space_block({5, 5, 3}, 0.25, {-0.5, -0.5, -0.5}, 400.0, 2.0);
+  append(scene, space_block({4, 4, 3}, 0.25, {-0.375, -0.375, 0.0}, 400.0, 2.0),
+         rotation_about({0, 0, 1}, 0.3), {0.0, 0.0, 1e-5}, {0.0, 0.0, -1e-3});
+  for (int i = 0; i < scene.nodes(); ++i) // the outer faces are led
+    if (const double z = scene.position(i).z(); z < -0.49 || z > 0.49)
+      scene.constraints.push_back({as<NodeIndex>(i), Mat<3>::Zero()});
+  BodyContactLaw law{true, Coulomb{0.2}};
+  law.conductance = 1.0;
+  scene.start({}, law);
+  for (int i = 0; i < 400; ++i) {
+    scene.step(5e-4);
+    if (i < 200) continue;
+    EXPECT_GT(scene.contact->body_result().pressing, 0.0);
+    double area = 0.0;
+    for (const auto& touch : scene.contact->touches()) area += touch.area;
+    // 9 nodes of the lower face lie beneath the upper one: half of their shares and of all of that
+    EXPECT_NEAR(area, 0.5 * (0.75 * 0.75 + 9 * 0.0625), 1e-3) << i;
+  }
+}
+
 TEST(SpaceBodies, oblique_impact_keeps_momenta_and_balances_energy) {
   SpaceMasses scene = space_block({4, 4, 4}, 0.25, {0, 0, 0}, 100.0, 0.0);
   const std::size_t own = scene.facets.size();
