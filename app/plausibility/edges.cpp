@@ -139,18 +139,23 @@ void doubt_edges(const input::Case& input, const ExplicitSolver<2>& solver, Doub
                   side(one), punch)));
   }
   for (const Edge& edge : edges(input, solver)) {
-    constexpr double felt = 2.0, rounding = 1e-6; // spacings
-    if (edge.radius >= (felt - rounding) * edge.spacing) continue;
     // A cut whose cells are as wide everywhere is asked for: its table alone makes those at the edge fine.
     constexpr double uniform = 0.75; // share of the widest cells
     if (input.cutting && edge.spacing > uniform * input.cloud.spacing) continue;
-    doubts.push_back(doubt_about(
-        input, fmt::format("tools.{}", edge.tool->name),
-        fmt::format(
-            "its arc of {:.3g} mm is {:.1f} spacings of the nodes that meet it, where fewer than {:g} hardly "
-            "feel that it is round: refine there (adapt.tool_spacing, cloud.refine) to {:.2g} mm",
-            1e3 * edge.radius, edge.radius / edge.spacing, felt, 1e3 * edge.radius / 4.0)));
+    doubt_arc(input, edge.tool->name, edge.radius, edge.spacing, doubts);
   }
+}
+
+void doubt_arc(const input::Case& input, const std::string& tool, double radius, double spacing,
+               Doubts& doubts) {
+  constexpr double felt = 2.0, rounding = 1e-6; // spacings
+  if (radius >= (felt - rounding) * spacing) return;
+  doubts.push_back(doubt_about(
+      input, fmt::format("tools.{}", tool),
+      fmt::format(
+          "its arc of {:.3g} mm is {:.1f} spacings of the nodes that meet it, where fewer than {:g} hardly "
+          "feel that it is round: refine there (adapt.tool_spacing, cloud.refine) to {:.2g} mm",
+          1e3 * radius, radius / spacing, felt, 1e3 * radius / 4.0)));
 }
 
 std::vector<std::pair<std::string, std::string>> tool_measures(const input::Case& input,

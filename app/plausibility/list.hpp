@@ -26,6 +26,11 @@ void doubt_pushes(const input::Case& input, const ExplicitSolver<2>& solver, Dou
 /// Clearances below zero, of nothing or wide open, strokes that cut nothing, sheets of a few cells, and arcs
 /// of tools that no node feels.
 void doubt_edges(const input::Case& input, const ExplicitSolver<2>& solver, Doubts& doubts);
+/// Of the last in space: edges of tools along lines or round circles.
+void doubt_edges(const input::Case& input, const ExplicitSolver<3>& solver, Doubts& doubts);
+/// An arc of a tool, m, that nodes with this spacing, m, hardly feel; none where they do.
+void doubt_arc(const input::Case& input, const std::string& tool, double radius, double spacing,
+               Doubts& doubts);
 /// The opening at which metal has broken and the length that damage is averaged over, beside the cells and
 /// the workpiece.
 void doubt_fracture(const input::Case& input, const ExplicitSolver<2>& solver, Doubts& doubts);

@@ -59,9 +59,9 @@ template<int dim>
 std::vector<std::string> doubts(const input::Case& input, const ExplicitSolver<dim>& solver) {
   Doubts list = doubts(input);
   doubt_motions(input, solver, list);
+  doubt_edges(input, solver, list);
   if constexpr (dim == 2) {
     doubt_pushes(input, solver, list);
-    doubt_edges(input, solver, list);
     doubt_fracture(input, solver, list);
     doubt_interfaces(input, solver, list);
     doubt_parts(input, solver, list);
