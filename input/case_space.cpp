@@ -46,9 +46,9 @@ std::pair<std::vector<std::string>, std::size_t> faceted_names(const Cloud<3>& s
     if (fresh) order.push_back(name);
     if (found->second.first.cross(n).norm() > 1e-5) found->second.second = false; // STL has six digits
   }
-  const auto round =
-      std::ranges::stable_partition(order, [&](const std::string& n) { return normal[n].second; });
-  return {order, static_cast<std::size_t>(round.begin() - order.begin())};
+  const auto round = std::stable_partition(order.begin(), order.end(),
+                                           [&](const std::string& n) { return normal[n].second; });
+  return {order, static_cast<std::size_t>(round - order.begin())};
 }
 
 /// Each place is on the surface, and pieces have one name.

@@ -161,7 +161,7 @@ template<int dim> State<dim> as_state(const StaticModel<dim>& model, const Stati
     for (std::size_t i = 0; i < nodes; ++i) node.position[k][i] += solution.displacement[k][i];
   resize_all(node.velocity, nodes);
   node.force = model.force;
-  for (Field& component : node.force) component.resize(nodes);
+  for (Field& along : node.force) along.resize(nodes);
   node.mass = op.node_volume();
   for (double& m : node.mass) m *= model.setup.problem.materials.front().density;
   node.temperature = model.setup.temperature;
