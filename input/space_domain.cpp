@@ -208,7 +208,8 @@ std::array<Vec3, 2> space_bounds(const Domain& domain) {
     return {low, high};
   }
   const Sweep& sweep = *domain.sweep;
-  const auto [low, high] = bounds(domain.outer);
+  const auto around = bounds(domain.outer);
+  const Vec2 &low = around[0], &high = around[1];
   if (!sweep.turned) return {Vec3(low.x(), low.y(), sweep.from), Vec3(high.x(), high.y(), sweep.to)};
   Vec2 from = high.x() * Vec2::Ones(), to = -from; // of the sector around the profile
   const auto reach = [&](const Vec2& direction) {
