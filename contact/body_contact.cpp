@@ -256,22 +256,17 @@ void BodyContact<2>::find(const Surface<2>& surface, PlacesOnBoundary<2> start, 
 template<>
 void BodyContact<2>::find_closed(const Surface<2>& surface, PlacesOnBoundary<2> position, double closed,
                                  std::vector<FacetHit<2>>& hits) const {
-  for (std::size_t first = 0; first < pairs_.size();) {
-    const BoundaryNodeIndex b = pairs_[first].node;
-    FacetHit<2> nearest;
-    double least = skin_;
-    for (; first < pairs_.size() && pairs_[first].node == b; ++first) {
-      const FacetIndex f = pairs_[first].facet;
-      const FacetView facet(surface, f, position);
-      const double gap = facet.gap(position[b]), place = facet.place(position[b]);
-      if (gap > closed * facet.length || std::abs(gap) >= least) continue;
-      if (place < -overhang || place > 1.0 + overhang || !faces(surface, b, facet.normal, position)) continue;
-      least = std::abs(gap);
-      const double s = std::clamp(place, 0.0, 1.0);
-      nearest = {b, f, {1.0 - s, s}, facet.normal};
-    }
-    if (least < skin_) hits.push_back(nearest);
-  }
+  append_nearest(
+      [&](const Pair& pair, FacetHit<2>& hit) {
+        const FacetView facet(surface, pair.facet, position);
+        const double gap = facet.gap(position[pair.node]), place = facet.place(position[pair.node]);
+        if (gap > closed * facet.length || place < -overhang || place > 1.0 + overhang) return none;
+        if (!faces(surface, pair.node, facet.normal, position)) return none;
+        const double s = std::clamp(place, 0.0, 1.0);
+        hit = {pair.node, pair.facet, {1.0 - s, s}, facet.normal};
+        return gap;
+      },
+      hits);
 }
 
 template<int dim> void BodyContact<dim>::archive(Archive& archive, const Surface<dim>& surface) {

@@ -7,6 +7,8 @@
 #include "core/fields/archive.hpp"
 #include "core/geometry/box_tree.hpp"
 
+#include <cmath>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -102,6 +104,22 @@ private:
     FacetIndex facet;
     Vec<dim> shift; ///< m, of the facet
   };
+  static constexpr double none = std::numeric_limits<double>::infinity();
+  /// Appends for each node the hit of its pair with the least |gap|, less than the skin. look(pair, hit): m,
+  /// the gap, having set the hit; `none` where it is no hit.
+  template<class Look> void append_nearest(Look&& look, std::vector<FacetHit<dim>>& hits) const {
+    for (std::size_t first = 0; first < pairs_.size();) {
+      const BoundaryNodeIndex node = pairs_[first].node;
+      FacetHit<dim> nearest, hit;
+      double least = skin_;
+      for (; first < pairs_.size() && pairs_[first].node == node; ++first)
+        if (const double off = std::abs(look(pairs_[first], hit)); off < least) {
+          least = off;
+          nearest = hit;
+        }
+      if (least < skin_) hits.push_back(nearest);
+    }
+  }
   void list(const Surface<dim>& surface);
   void list_edges(const Surface<dim>& surface, const BoxTree& facets,
                   std::span<const Vec3> shifts); // in space

@@ -124,11 +124,7 @@ void find_near(const BoxTree& things, Box<3> box, const Vec3& shift, std::vector
 }
 
 Box<3> box_of(PlacesOnBoundary<3> position, std::span<const BoundaryNodeIndex> nodes, double margin) {
-  Box<3> box{position[nodes[0]], position[nodes[0]]};
-  for (const BoundaryNodeIndex b : nodes.subspan(1)) {
-    box.low = box.low.cwiseMin(position[b]);
-    box.high = box.high.cwiseMax(position[b]);
-  }
+  Box<3> box = cnem::box_of<3>(nodes, [&](BoundaryNodeIndex b) -> const Vec3& { return position[b]; });
   box.low.array() -= margin;
   box.high.array() += margin;
   return box;
@@ -358,23 +354,19 @@ void BodyContact<3>::find(const Surface<3>& surface, PlacesOnBoundary<3> start, 
 template<>
 void BodyContact<3>::find_closed(const Surface<3>& surface, PlacesOnBoundary<3> position, double closed,
                                  std::vector<FacetHit<3>>& hits) const {
-  for (std::size_t first = 0; first < pairs_.size();) {
-    const BoundaryNodeIndex b = pairs_[first].node;
-    FacetHit<3> nearest;
-    double least = skin_;
-    for (; first < pairs_.size() && pairs_[first].node == b; ++first) {
-      const auto& [node, f, shift] = pairs_[first];
-      const FacetView facet(surface, f, position);
-      const Vec3 x = position[b] - shift;
-      const double gap = facet.gap(x);
-      if (gap > closed * facet.size || std::abs(gap) >= least) continue;
-      const auto place = facet.weights(x);
-      if (!inside(place, overhang) || !faces(surface, side_, b, facet.normal, position)) continue;
-      least = std::abs(gap);
-      nearest = {b, f, clamped(place), facet.normal};
-    }
-    if (least < skin_) hits.push_back(nearest);
-  }
+  append_nearest(
+      [&](const Pair& pair, FacetHit<3>& hit) {
+        const FacetView facet(surface, pair.facet, position);
+        const Vec3 x = position[pair.node] - pair.shift;
+        const double gap = facet.gap(x);
+        if (gap > closed * facet.size) return none;
+        const auto place = facet.weights(x);
+        if (!inside(place, overhang) || !faces(surface, side_, pair.node, facet.normal, position))
+          return none;
+        hit = {pair.node, pair.facet, clamped(place), facet.normal};
+        return gap;
+      },
+      hits);
 }
 
 template<>

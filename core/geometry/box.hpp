@@ -13,14 +13,19 @@ template<int dim> struct Box {
   }
 };
 
-/// Round points, of which there is at least one.
-template<int dim, class Points> Box<dim> box_of(const Points& points) {
-  Box<dim> box{*std::begin(points), *std::begin(points)};
-  for (const Vec<dim>& x : points) {
+/// Round the places of things, of which there is at least one.
+template<int dim, class Things, class Place> Box<dim> box_of(const Things& things, Place&& place) {
+  Box<dim> box{place(*std::begin(things)), place(*std::begin(things))};
+  for (const auto& thing : things) {
+    const Vec<dim>& x = place(thing);
     box.low = box.low.cwiseMin(x);
     box.high = box.high.cwiseMax(x);
   }
   return box;
+}
+/// Round points.
+template<int dim, class Points> Box<dim> box_of(const Points& points) {
+  return box_of<dim>(points, [](const Vec<dim>& x) -> const Vec<dim>& { return x; });
 }
 
 /// Whether they have a point in common.
