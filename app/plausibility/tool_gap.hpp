@@ -1,5 +1,6 @@
 #pragma once
 // How far tools are from the workpiece as it stands at the start, by the nodes of its boundary.
+#include "core/geometry/box.hpp"
 #include "core/index.hpp"
 #include "mechanics/explicit_solver.hpp"
 
@@ -40,31 +41,29 @@ public:
   struct Gap {
     double distance = std::numeric_limits<double>::infinity(); ///< m, negative inside the tool
     double spacing = 0.0;                                      ///< m, of the node that is nearest
+    Vec<dim> at = Vec<dim>::Zero();                            ///< m, where that is
   };
-  /// Between a tool that has moved by `moved` (m) and the nearest node.
-  Gap gap(const contact::ToolShape<dim>& shape, const Vec<dim>& moved) const {
+  /// To the boundary node for which distance(place), m, is the least.
+  template<class Distance> Gap least(Distance&& distance) const {
     Gap least;
     for (std::size_t i = 0; i < place_.size(); ++i)
-      if (const double d = shape.closest(place_[i] - moved).distance; d < least.distance)
-        least = {d, spacing_[i]};
+      if (const double d = distance(place_[i]); d < least.distance) least = {d, spacing_[i], place_[i]};
     return least;
+  }
+  /// Between a tool that has moved by `moved` (m) and the nearest node.
+  Gap gap(const contact::ToolShape<dim>& shape, const Vec<dim>& moved) const {
+    return least([&](const Vec<dim>& x) { return shape.closest(x - moved).distance; });
   }
   /// The boundary node nearest to a place, as a gap.
   Gap nearest(const Vec<dim>& x) const {
-    Gap least;
-    for (std::size_t i = 0; i < place_.size(); ++i)
-      if (const double d = (place_[i] - x).norm(); d < least.distance) least = {d, spacing_[i]};
-    return least;
+    return least([&](const Vec<dim>& place) { return (place - x).norm(); });
   }
 
+  Box<dim> box() const { return box_of<dim>(place_); }
   /// The diagonal of its bounding box, m.
   double size() const {
-    Vec<dim> low = Vec<dim>::Constant(std::numeric_limits<double>::infinity()), high = -low;
-    for (const Vec<dim>& x : place_) {
-      low = low.cwiseMin(x);
-      high = high.cwiseMax(x);
-    }
-    return (high - low).norm();
+    const Box<dim> around = box();
+    return (around.high - around.low).norm();
   }
 
 private:

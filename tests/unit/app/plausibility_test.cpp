@@ -315,43 +315,6 @@ TEST(Plausibility, arcs_that_no_node_feels) {
       Texts{});
 }
 
-TEST(Plausibility, arcs_in_space_that_no_node_feels) {
-  const auto doubts_of = [](const std::string& fillet, const std::vector<std::string>& changes) {
-    const input::Case input = input::read_case_text(R"toml(
-[analysis]
-kinematics = "three-dimensional"
-thermal = false
-[time]
-end = "20 us"
-[cloud]
-spacing = "0.5 mm"
-[domain]
-material = "m"
-block = { shape = "cylinder", part = "quarter", radius = "5 mm", length = "4 mm" }
-[materials.m]
-density = "2700 kg/m3"
-elastic = { young = "70 GPa", poisson = 0.33 }
-plastic = { law = "linear", yield = "80 MPa", hardening = "40 MPa" }
-[boundary.s]
-pieces = ["x-", "y-", "bottom"]
-symmetry = true
-[tools.punch]
-shape = "revolved"
-start = "0 4 mm"
-path = [ { to = "3.5 4 mm", fillet = ")toml" + fillet + R"toml(" }, { to = "3.5 12 mm" }, { to = "0 12 mm" } ]
-velocity = { z = { value = "-25 m/s", ramp = "10 us", smooth = true } }
-)toml",
-                                                    "case.toml", changes);
-    return doubts(input, testing::solver_of<3>(input));
-  };
-  const Texts list = doubts_of("0.6 mm", {});
-  ASSERT_EQ(list.size(), 1);
-  EXPECT_NE(list.front().find("key 'tools.punch': its arc of 0.6 mm is 1.2 spacings"), std::string::npos)
-      << list.front();
-  EXPECT_EQ(doubts_of("1.1 mm", {}), Texts{});
-  EXPECT_EQ(doubts_of("0.6 mm", {"adapt.resample=true", "adapt.tool_spacing=0.25 mm"}), Texts{});
-}
-
 TEST(Plausibility, arcs_of_cutters_are_felt_unless_cells_there_are_made_wider) {
   const auto doubts_of = [](const Texts& overrides) {
     const input::Case input = input::read_case_text(sound_chip, "case.toml", overrides);
