@@ -41,9 +41,13 @@ double thickness_by_tracing(const ToolShape<3>& shape, std::span<const Vec3> sur
     const double facing = shape.closest(x).normal.dot(direction);
     if (facing == 0.0) continue;
     const Vec3 inwards = facing < 0.0 ? direction : Vec3(-direction);
-    if (const double thickness = passed_by_tracing(shape, x - 1e-9 * size * inwards, x + size * inwards);
-        thickness > 0.0)
+    for (const double length : {1e-6, 1e-3, 1.0}) { // steps along a long path pass foils
+      const double thickness =
+          passed_by_tracing(shape, x - 1e-9 * size * inwards, x + length * size * inwards);
+      if (thickness == 0.0) continue;
       least = std::min(least, thickness);
+      break;
+    }
   }
   return least;
 }

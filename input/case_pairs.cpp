@@ -16,6 +16,7 @@ using Text = std::string;
 
 constexpr const char* one_of_them = "one of them";
 constexpr const char* dynamics = "it with analysis.type = \"explicit\" only";
+constexpr const char* on_voronoi_cells = "it with method.cells = \"voronoi\"";
 constexpr const char* motion = "it with analysis.mechanical = true";
 
 bool is_static(const Case& c) { return c.analysis.type == Analysis::Type::statics; }
@@ -33,6 +34,11 @@ Text without_motion(const Case& c) {
 }
 Text without_cells(const Case& c) {
   return when(c.method.name != "cnem", ("with method.name = \"" + c.method.name + "\"").c_str());
+}
+Text on_median_cells(const Case& c) {
+  return when(c.analysis.dimensions() == 3 && c.method.name == "cnem" &&
+                  c.method.options.cells == scni::CellKind::median,
+              "with method.cells = \"median\"");
 }
 /// More of [report] than its units, or nothing at all.
 bool evaluates(const Case& c) {
@@ -144,6 +150,10 @@ const std::vector<Pair>& pairs() {
          return when(!least_squares(c) && c.method.name != "efg", "without moving least squares");
        },
        "it with method.functions = \"mls\" or method.name = \"efg\"", "nothing has supports"},
+      {"method.functions", "", "`method.cells = \"median\"`", on_median_cells, on_voronoi_cells,
+       "on median cells functions are linear in tetrahedra"},
+      {"method.gauss_points", "", "`method.cells = \"median\"`", on_median_cells, on_voronoi_cells,
+       "facets of median cells have one point, which is exact for linear functions"},
 
       {"time.step.local", "local steps", "`time.step.fixed`",
        [](const Case& c) { return when(c.time.fixed.has_value(), "and a fixed one"); }, one_of_them,

@@ -21,6 +21,9 @@ void doubt_output(const input::Case& input, Doubts& doubts);
 /// Tools that move away from the workpiece, meet it late or never, or go far beyond it.
 template<int dim>
 void doubt_motions(const input::Case& input, const ExplicitSolver<dim>& solver, Doubts& doubts);
+/// Supports of which one alone holds what several name.
+template<int dim>
+void doubt_supports(const input::Case& input, const ExplicitSolver<dim>& solver, Doubts& doubts);
 /// Tools with a mass that forces push away, hardly push by the end, or push with a force of nothing on earth.
 void doubt_pushes(const input::Case& input, const ExplicitSolver<2>& solver, Doubts& doubts);
 /// Clearances below zero, of nothing or wide open, strokes that cut nothing, sheets of a few cells, and arcs

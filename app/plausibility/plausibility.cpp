@@ -60,6 +60,7 @@ std::vector<std::string> doubts(const input::Case& input, const ExplicitSolver<d
   Doubts list = doubts(input);
   doubt_motions(input, solver, list);
   doubt_edges(input, solver, list);
+  doubt_supports(input, solver, list);
   if constexpr (dim == 2) {
     doubt_pushes(input, solver, list);
     doubt_fracture(input, solver, list);

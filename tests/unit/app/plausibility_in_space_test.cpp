@@ -60,5 +60,22 @@ TEST(PlausibilityInSpace, arcs_far_from_the_workpiece_are_not_doubted) {
             Texts{});
 }
 
+TEST(PlausibilityInSpace, supports_that_prescribe_different_motions) {
+  const Texts pulled{"boundary.held.pieces=[\"x-\", \"y-\"]", "boundary.foot.pieces=[\"bottom\"]",
+                     "boundary.foot.velocity.z=1 m/s", "boundary.wall.pieces=[\"side\"]"};
+  const auto with = [&](const std::string& speed) {
+    Texts changes = pulled;
+    changes.push_back("boundary.wall.velocity.z=" + speed);
+    return doubts_in_space(changes);
+  };
+  EXPECT_EQ(with("1 m/s"), Texts{});
+  const Texts list = with("-1 m/s");
+  ASSERT_EQ(list.size(), 1);
+  EXPECT_NE(list.front().find("key 'boundary.wall': prescribes another motion along (0, 0, 1) than "
+                              "boundary.foot of 17 nodes that both hold, such as the one at ("),
+            std::string::npos)
+      << list.front();
+}
+
 } // namespace
 } // namespace cnem::app

@@ -210,6 +210,8 @@ TEST(SweptShape, thickness_is_that_of_the_way_through) {
   EXPECT_EQ(plate.passed({-1, 1, -1}, {0.3, 1, 0.3}), 0.0) << "round the edge is no way through";
   EXPECT_NEAR(plate.thickness_along({0, 0, 1}), 0.5, 1e-3);
   EXPECT_NEAR(plate.thickness_along({1, 0, 0}), 4.0, 1e-2);
+  const SweptShape foil = SweptShape::extruded(cnem::testing::box({0, 0}, {4, 3}), 0.0, 1e-6);
+  EXPECT_NEAR(foil.thickness_along({0, 0, 1}), 1e-6, 1e-8) << "steps along a path of its size pass it";
   const SweptShape punch = SweptShape::revolved(punch_section(1.0, 5.0, 0.1));
   EXPECT_NEAR(punch.thickness_along({0, 0, -1}), 4.9, 0.11);
   EXPECT_NEAR(punch.passed({-2, 0, 2}, {2, 0, 2}), 2.0, 1e-2);
