@@ -319,6 +319,17 @@ inline voronoi::RecoveredBoundary recovered(const SpaceCloud& how) {
   return voronoi::recover_boundary(unrecovered(how));
 }
 
+/// A notch whose faces have been bent onto each other but for a gap, in spacings; `how` gives jitter and
+/// seed.
+inline Cloud<3> closed_notch(double gap, SpaceCloud how) {
+  how.shape = SpaceShape::notch;
+  Cloud<3> cloud = unrecovered(how);
+  const double h = 1.0 / how.cells, root = h * (how.cells / 2), upper = root + h; // m, in x, and in y
+  for (Vec3& x : cloud.position)
+    if (x.y() > upper - 0.5 * h) x.y() -= (1.0 - gap) * std::clamp(root - x.x(), 0.0, h);
+  return cloud;
+}
+
 /// Two cubes with their nodes in turns, the second on the first and `deep` into it, turned about z.
 inline Cloud<3> pressed_cubes(int cells, double deep, bool with_bodies) {
   const Cloud<3> one = unrecovered({.shape = SpaceShape::cube, .cells = cells});

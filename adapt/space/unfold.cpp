@@ -41,13 +41,12 @@ public:
   /// The number of nodes that have moved.
   int run() {
     clear_seams();
+    part_touching();
     constexpr int rounds = 36;
     for (int n = 0; n < rounds; ++n) {
       const std::vector<Pair> pairs = voronoi::crossings(cloud_);
       if (pairs.empty()) break;
-      for (const Pair& pair : pairs)
-        for (const CloudFacetIndex f : pair)
-          for (const NodeIndex i : cloud_.facets[f].node) active_[i] = 1;
+      activate(pairs);
       constexpr int widen_every = 3;
       if (n % widen_every == widen_every - 1) active_ = with_neighbours(cloud_, active_);
       push_apart(pairs);
@@ -63,7 +62,7 @@ public:
   const IndexedVector<NodeIndex, char>& active() const { return active_; }
 
 private:
-  using Corners = std::array<Vec3, 3>;
+  static constexpr double each = 0.6; ///< of an overlap that either facet goes, to be apart at the end
 
   Vec3 normal(CloudFacetIndex f) const {
     return area_normal<3>(corners_of<3>(cloud_.facets[f], cloud_.position));
@@ -107,10 +106,9 @@ private:
     return farthest;
   }
 
-  /// In the middle of what f and g have in common.
-  Vec3 middle(const Pair& pair) const {
-    Vec3 sum = Vec3::Zero();
-    double count = 0.0;
+  /// Where edges of either facet go through the other one.
+  std::vector<Vec3> common_points(const Pair& pair) const {
+    std::vector<Vec3> points;
     const auto pierce = [&](CloudFacetIndex f, CloudFacetIndex g) {
       const auto x = corners_of<3>(cloud_.facets[g], cloud_.position);
       const Vec3 n = area_normal<3>(x);
@@ -123,14 +121,21 @@ private:
         bool inside = true;
         for (std::size_t m = 0; m < 3; ++m)
           inside = inside && (x[(m + 1) % 3] - x[m]).cross(at - x[m]).dot(n) >= -1e-9 * n.squaredNorm();
-        if (!inside) continue;
-        sum += at;
-        count += 1.0;
+        if (inside) points.push_back(at);
       }
     };
     pierce(pair[0], pair[1]);
     pierce(pair[1], pair[0]);
-    return count > 0.0 ? Vec3(sum / count) : Vec3(cloud_.position[cloud_.facets[pair[0]].node[0]]);
+    return points;
+  }
+
+  /// In the middle of what f and g have in common.
+  Vec3 middle(const Pair& pair) const {
+    const std::vector<Vec3> points = common_points(pair);
+    if (points.empty()) return cloud_.position[cloud_.facets[pair[0]].node[0]];
+    Vec3 sum = Vec3::Zero();
+    for (const Vec3& x : points) sum += x;
+    return sum / static_cast<double>(points.size());
   }
 
   /// Whether it is matter that has been between the facets: above both of them the surface is inside out.
@@ -208,24 +213,82 @@ private:
     }
   }
 
+  void activate(const std::vector<Pair>& pairs) {
+    for (const Pair& pair : pairs)
+      for (const CloudFacetIndex f : pair)
+        for (const NodeIndex i : cloud_.facets[f].node) active_[i] = 1;
+  }
+
+  /// How far two facets are within each other, m, and the way along which the first leaves the second.
+  struct Overlap {
+    double depth;
+    Vec3 way;
+  };
+  Overlap overlap(const Pair& pair, const voronoi::Winding& winding) const {
+    const auto [f, g] = pair;
+    const double above = were_back_to_back(pair, winding) ? 1.0 : -1.0;
+    const double over_g = reach(f, g, above), over_f = reach(g, f, above);
+    return {std::min(over_g, over_f),
+            -above * (over_g < over_f ? normal(g).normalized() : Vec3(-normal(f).normalized()))};
+  }
+
+  /// m, between the points farthest apart that two facets have in common.
+  double common_length(const Pair& pair) const {
+    double longest = 0.0;
+    const std::vector<Vec3> points = common_points(pair);
+    for (const Vec3& a : points)
+      for (const Vec3& b : points) longest = std::max(longest, (a - b).norm());
+    return longest;
+  }
+
+  bool facing(const Pair& pair) const {
+    return !share_a_node(pair) && normal(pair[0]).dot(normal(pair[1])) < 0.0;
+  }
+
+  /// Where faces that touch are within each other by no more than contact may leave, they part by as little,
+  /// and nothing else changes.
+  void part_touching() {
+    constexpr int rounds = 12;
+    constexpr double shallow = 0.01, clearance = 1e-6; // h
+    for (int n = 0; n < rounds; ++n) {
+      std::vector<Pair> pairs = voronoi::crossings(cloud_);
+      std::erase_if(pairs, [&](const Pair& pair) { return !facing(pair); });
+      if (pairs.empty()) return;
+      const voronoi::Winding winding(cloud_);
+      IndexedVector<NodeIndex, Vec3> way(cloud_.position.size(), Vec3::Zero());
+      for (const Pair& pair : pairs) {
+        const double h = size_[index_of(cloud_.facets[pair[0]].node[0])];
+        const Overlap within = overlap(pair, winding);
+        const double depth = std::min(within.depth, common_length(pair));
+        if (depth > shallow * h) return;
+        part(pair, each * (depth + clearance * h) * within.way, way);
+      }
+      activate(pairs);
+      for (const NodeIndex i : cloud_.position.indices())
+        if (!way[i].isZero(0.0)) move(i, way[i]);
+      align();
+    }
+  }
+
+  /// The nodes of the first facet go by `step`, those of the second by its opposite, each as far as the
+  /// farthest of these.
+  void part(const Pair& pair, const Vec3& step, IndexedVector<NodeIndex, Vec3>& way) const {
+    for (const NodeIndex i : cloud_.facets[pair[0]].node)
+      if (step.norm() > way[i].norm()) way[i] = step;
+    for (const NodeIndex i : cloud_.facets[pair[1]].node)
+      if (step.norm() > way[i].norm()) way[i] = -step;
+  }
+
   /// Facets that have run into each other go apart along the normal of the one that is entered less deep.
   void push_apart(const std::vector<Pair>& pairs) {
     IndexedVector<NodeIndex, Vec3> way(cloud_.position.size(), Vec3::Zero());
     constexpr double at_once = 0.1; // h
     const voronoi::Winding winding(cloud_);
     for (const Pair& pair : pairs) {
-      const auto [f, g] = pair;
-      if (share_a_node(pair) || !(normal(f).dot(normal(g)) < 0.0)) continue;
-      const double above = were_back_to_back(pair, winding) ? 1.0 : -1.0;
-      const double over_g = reach(f, g, above), over_f = reach(g, f, above);
-      const Vec3 n = -above * (over_g < over_f ? normal(g).normalized() : Vec3(-normal(f).normalized()));
-      const double h = size_[index_of(cloud_.facets[f].node[0])];
-      constexpr double more = 1.2; // than half of it each, to be apart at the end
-      const Vec3 step = std::min(0.5 * more * std::min(over_g, over_f), at_once * h) * n;
-      for (const NodeIndex i : cloud_.facets[f].node)
-        if (step.norm() > way[i].norm()) way[i] = step;
-      for (const NodeIndex i : cloud_.facets[g].node)
-        if (step.norm() > way[i].norm()) way[i] = -step;
+      if (!facing(pair)) continue;
+      const Overlap within = overlap(pair, winding);
+      const double h = size_[index_of(cloud_.facets[pair[0]].node[0])];
+      part(pair, std::min(each * within.depth, at_once * h) * within.way, way);
     }
     for (const NodeIndex i : cloud_.position.indices())
       if (!way[i].isZero()) move(i, way[i]);

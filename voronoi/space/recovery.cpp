@@ -8,6 +8,7 @@
 #include "voronoi/space/crossings.hpp"
 #include "voronoi/space/facet_flips.hpp"
 #include "voronoi/space/filling.hpp"
+#include "voronoi/space/opened.hpp"
 #include "voronoi/space/surface.hpp"
 #include "voronoi/space/surface_fit.hpp"
 #include "voronoi/space/surface_flips.hpp"
@@ -52,6 +53,10 @@ public:
     });
     sound_ = sound_ || walls.lost.empty(); // faces of tetrahedra do not cross
     counts.lost = as<int>(walls.lost.size());
+    if (auto opened = filling_of_opened(cloud, walls.lost)) {
+      counts.held = counts.lost;
+      return finish(std::move(*opened));
+    }
     for (int round = 0;; ++round) {
       if (round == most_rounds)
         throw GeometryError(fmt::format("{} is lost, and {} rounds of recovery did not bring it back",

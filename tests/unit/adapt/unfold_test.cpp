@@ -139,5 +139,17 @@ TEST(Unfold, walls_of_a_notch_part) {
   EXPECT_NEAR(enclosed_measure(body.cloud), volume, 2e-4 * volume);
 }
 
+// Contact leaves faces that press on each other within each other by next to nothing.
+TEST(Unfold, faces_that_touch_part_by_no_more_than_they_overlap) {
+  Folded body(testing::SpaceShape::notch);
+  body.cloud = testing::closed_notch(
+      -1e-4, {.cells = cells, .jitter = 0.3, .shear_plane = 3, .wave = 0.001, .seed = 4}); // no planes
+  body.fold([](const Vec3& x) { return x; });
+  body.unfold();
+  double farthest = 0.0;
+  for (const NodeIndex i : body.cloud.position.indices()) farthest = std::max(farthest, body.way(i).norm());
+  EXPECT_LT(farthest, 0.005 * h);
+}
+
 } // namespace
 } // namespace cnem::adapt

@@ -110,6 +110,20 @@ TEST(recovery, keeps_nodes_pieces_and_what_a_flat_faced_body_encloses) {
   for (const double difference : area) EXPECT_NEAR(difference, 0.0, 1e-12);
 }
 
+/// Across a gap of nothing all facets have nodes of the other face in their balls.
+TEST(recovery, holds_faces_of_one_body_that_touch) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE(fmt::format("seed {}", seed));
+    const Cloud<3> cloud = closed_notch(1e-6, {.cells = 8, .jitter = 0.3, .seed = seed});
+    ASSERT_TRUE(crossings(cloud).empty());
+    RecoveredBoundary body;
+    ASSERT_NO_THROW(body = recover_boundary(cloud));
+    EXPECT_GT(body.counts.held, 20);
+    expect_filled(body.cloud, body.tetrahedra);
+    EXPECT_EQ(triangulate(body.cloud).node, body.tetrahedra.node);
+  }
+}
+
 TEST(recovery, nothing_crosses_a_slit) {
   const RecoveredBoundary body = recovered({.shape = SpaceShape::slit, .jitter = 0.2});
   ASSERT_FALSE(body.cloud.twins.empty());
