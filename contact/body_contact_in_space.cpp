@@ -15,13 +15,13 @@
 namespace cnem::contact {
 namespace {
 
-constexpr double skin_of_facets = 0.5;  ///< skin over the mean length of edges
-constexpr double narrow_skin = 0.125;   ///< of the skin, between edges that are looked at in each step
-constexpr double clearance = 1e-6;      ///< of a facet's size: what stays between bodies that touch
-constexpr double rounding = 1e-9;       ///< of a facet's size: a gap of nothing
-constexpr double overhang = 1e-6;       ///< of a facet's size, by which crossings beside it count
-constexpr double facing = -0.25;        ///< cosine between normals below which two facets face each other
-constexpr double least_crossing = 0.05; ///< sine of the angle between edges that cross
+constexpr double skin_of_facets = 0.5;   ///< skin over the mean length of edges
+constexpr double narrow_skin = 0.125;    ///< of the skin, between edges that are looked at in each step
+constexpr double clearance = 1e-6;       ///< of a facet's size: what stays between bodies that touch
+constexpr double rounding = 1e-9;        ///< of a facet's size: a gap of nothing
+constexpr double overhang = 1e-6;        ///< of a facet's size, by which crossings beside it count
+constexpr double facing = -0.25;         ///< cosine between normals below which two facets face each other
+constexpr double least_crossing = 0.005; ///< sine of the angle between edges that cross
 
 /// A facet at one time.
 struct FacetView {

@@ -29,8 +29,9 @@ struct RecoveredBoundary {
   bool flipped = false; ///< whether there are others than Delaunay's among the tetrahedra (filling.hpp)
 };
 
-/// The cheapest first: (1) Lawson's flips of the surface within named pieces, and flips to diagonals that the
-/// tetrahedra have, such that none that is flat to rounding lies on the inner side of two facets; (2) flips
+/// The cheapest first: (1) Lawson's flips of the surface within named pieces, then, where faces touch, what
+/// opened.hpp does, else flips to diagonals that the tetrahedra have, such that none that is flat to rounding
+/// lies on the inner side of two facets; (2) flips
 /// of tetrahedra (facet_flips.hpp), which change neither nodes nor surface; (3) flips of the surface at
 /// larger angles; (4) inner nodes in diametral balls of lost facets go; (5) the boundary of the tetrahedra
 /// inside becomes the surface, if it is a manifold with the same nodes, where tetrahedra that are flat on a

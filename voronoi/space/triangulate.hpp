@@ -7,10 +7,10 @@ namespace cnem::voronoi {
 
 /// The tetrahedra inside the boundary: Delaunay ones away from it. Where facets are no faces of these,
 /// tetrahedra are flipped until they are (facet_flips.hpp), which succeeds for most clouds that
-/// recover_boundary() (recovery.hpp) has not seen and for all it returns. Tetrahedra begin with their lowest
-/// node and stand in the order of their nodes: they follow from the positions and the set of facets alone.
-/// Right-handed by exact predicates; among cospherical nodes that were turned a few may have no more volume
-/// than rounding. O(N log N).
+/// recover_boundary() (recovery.hpp) has not seen and for all it returns; faces that touch are set apart for
+/// it (opened.hpp). Tetrahedra begin with their lowest node and stand in the order of their nodes: they
+/// follow from the positions and the set of facets alone. Right-handed by exact predicates; among cospherical
+/// nodes that were turned a few may have no more volume than rounding. O(N log N).
 ///
 /// Throws GeometryError, naming nodes with positions, for a surface that is open, branches, touches or
 /// crosses itself or is inside out; nodes outside; coincident nodes that are no declared twins; positions
