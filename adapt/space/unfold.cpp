@@ -1,6 +1,7 @@
 #include "adapt/space/unfold.hpp"
 
 #include "adapt/space/boundary_planes.hpp"
+#include "adapt/space/crossing_facets.hpp"
 #include "adapt/space/refine_surface.hpp"
 #include "core/geometry/facets.hpp"
 #include "core/index.hpp"
@@ -15,7 +16,7 @@
 namespace cnem::adapt {
 namespace {
 
-using Pair = std::array<CloudFacetIndex, 2>;
+using Pair = CrossingFacets::Pair;
 
 /// Nodes and those beside them on the surface.
 IndexedVector<NodeIndex, char> with_neighbours(const Cloud<3>& cloud,
@@ -31,8 +32,9 @@ class Unfolding {
 public:
   Unfolding(Cloud<3>& cloud, const IndexedVector<NodeIndex, char>& held, const Field& size,
             const PeriodImages& images, const SurfaceRules& rules)
-      : cloud_(cloud), before_(cloud.position), held_(held), size_(size), planes_(cloud), rules_(rules),
-        groups_(images.groups()), active_(cloud.position.size(), 0), within_seam_(cloud.position.size(), 1) {
+      : cloud_(cloud), facets_(cloud, size), before_(cloud.position), held_(held), size_(size),
+        planes_(cloud), rules_(rules), groups_(images.groups()), active_(cloud.position.size(), 0),
+        within_seam_(cloud.position.size(), 1) {
     for (const CloudFacetIndex f : cloud.facets.indices())
       if (!on_seam(f))
         for (const NodeIndex i : cloud.facets[f].node) within_seam_[i] = 0;
@@ -42,6 +44,7 @@ public:
   int run() {
     clear_seams();
     part_touching();
+    untangle();
     constexpr int rounds = 36;
     for (int n = 0; n < rounds; ++n) {
       const std::vector<Pair> pairs = voronoi::crossings(cloud_);
@@ -63,10 +66,6 @@ public:
 
 private:
   static constexpr double each = 0.6; ///< of an overlap that either facet goes, to be apart at the end
-
-  Vec3 normal(CloudFacetIndex f) const {
-    return area_normal<3>(corners_of<3>(cloud_.facets[f], cloud_.position));
-  }
 
   void move(NodeIndex i, const Vec3& way) {
     constexpr double farthest = 0.5; // h
@@ -90,63 +89,6 @@ private:
     }
   }
 
-  bool share_a_node(const Pair& pair) const {
-    for (const NodeIndex i : cloud_.facets[pair[0]].node)
-      for (const NodeIndex k : cloud_.facets[pair[1]].node)
-        if (i == k) return true;
-    return false;
-  }
-
-  /// How far the corners of f are above the plane of g (sign 1) or below it (-1), m.
-  double reach(CloudFacetIndex f, CloudFacetIndex g, double sign) const {
-    const Vec3 n = sign * normal(g).normalized();
-    double farthest = 0.0;
-    for (const NodeIndex i : cloud_.facets[f].node)
-      farthest = std::max(farthest, n.dot(cloud_.position[i] - cloud_.position[cloud_.facets[g].node[0]]));
-    return farthest;
-  }
-
-  /// Where edges of either facet go through the other one.
-  std::vector<Vec3> common_points(const Pair& pair) const {
-    std::vector<Vec3> points;
-    const auto pierce = [&](CloudFacetIndex f, CloudFacetIndex g) {
-      const auto x = corners_of<3>(cloud_.facets[g], cloud_.position);
-      const Vec3 n = area_normal<3>(x);
-      for (std::size_t k = 0; k < 3; ++k) {
-        const Vec3 &a = cloud_.position[cloud_.facets[f].node[k]],
-                   &b = cloud_.position[cloud_.facets[f].node[(k + 1) % 3]];
-        const double from = n.dot(a - x[0]), to = n.dot(b - x[0]);
-        if (from * to > 0.0 || from == to) continue;
-        const Vec3 at = a + from / (from - to) * (b - a);
-        bool inside = true;
-        for (std::size_t m = 0; m < 3; ++m)
-          inside = inside && (x[(m + 1) % 3] - x[m]).cross(at - x[m]).dot(n) >= -1e-9 * n.squaredNorm();
-        if (inside) points.push_back(at);
-      }
-    };
-    pierce(pair[0], pair[1]);
-    pierce(pair[1], pair[0]);
-    return points;
-  }
-
-  /// In the middle of what f and g have in common.
-  Vec3 middle(const Pair& pair) const {
-    const std::vector<Vec3> points = common_points(pair);
-    if (points.empty()) return cloud_.position[cloud_.facets[pair[0]].node[0]];
-    Vec3 sum = Vec3::Zero();
-    for (const Vec3& x : points) sum += x;
-    return sum / static_cast<double>(points.size());
-  }
-
-  /// Whether it is matter that has been between the facets: above both of them the surface is inside out.
-  /// Else it has been a gap, and below both of them matter is twice.
-  bool were_back_to_back(const Pair& pair, const voronoi::Winding& winding) const {
-    constexpr double little = 1e-6; // h
-    const Vec3 up = normal(pair[0]).normalized() + normal(pair[1]).normalized();
-    const double h = size_[index_of(cloud_.facets[pair[0]].node[0])];
-    return winding(middle(pair) + little * h * up.normalized()) < 0;
-  }
-
   bool on_seam(CloudFacetIndex f) const { return rules_.is_still(cloud_.facets[f].piece); }
 
   /// Where a seam and a face have run into each other the seam goes: it is a cut through matter that goes on
@@ -161,7 +103,7 @@ private:
       if (n == rounds) return set_back(pairs);
       IndexedVector<NodeIndex, Vec3> way(cloud_.position.size(), Vec3::Zero());
       const voronoi::Winding winding(cloud_);
-      for (const Pair& pair : pairs) leave_face(pair, were_back_to_back(pair, winding), way);
+      for (const Pair& pair : pairs) leave_face(pair, facets_.were_back_to_back(pair, winding), way);
       if (!move_alike(cloud_, groups_, way, held_)) return set_back(pairs);
     }
   }
@@ -197,7 +139,7 @@ private:
     const bool first = on_seam(pair[0]);
     const CloudFacetIndex f = first ? pair[0] : pair[1], g = first ? pair[1] : pair[0];
     const double above = back_to_back ? 1.0 : -1.0;
-    const Vec3 n = -above * normal(g).normalized();
+    const Vec3 n = -above * facets_.normal(g).normalized();
     const auto lacking = [&](NodeIndex i) {
       return clearance * size_[index_of(i)] -
              n.dot(cloud_.position[i] - cloud_.position[cloud_.facets[g].node[0]]);
@@ -205,7 +147,7 @@ private:
     const auto& corners = cloud_.facets[f].node;
     const bool any = std::any_of(corners.begin(), corners.end(),
                                  [&](NodeIndex i) { return within_seam_[i] && lacking(i) > 0.0; });
-    const double overlap = std::min(reach(f, g, above), reach(g, f, above));
+    const double overlap = std::min(facets_.reach(f, g, above), facets_.reach(g, f, above));
     for (const NodeIndex i : corners) {
       if (!within_seam_[i]) continue;
       const double length = std::min(any ? lacking(i) : more * overlap, at_once * size_[index_of(i)]);
@@ -219,32 +161,6 @@ private:
         for (const NodeIndex i : cloud_.facets[f].node) active_[i] = 1;
   }
 
-  /// How far two facets are within each other, m, and the way along which the first leaves the second.
-  struct Overlap {
-    double depth;
-    Vec3 way;
-  };
-  Overlap overlap(const Pair& pair, const voronoi::Winding& winding) const {
-    const auto [f, g] = pair;
-    const double above = were_back_to_back(pair, winding) ? 1.0 : -1.0;
-    const double over_g = reach(f, g, above), over_f = reach(g, f, above);
-    return {std::min(over_g, over_f),
-            -above * (over_g < over_f ? normal(g).normalized() : Vec3(-normal(f).normalized()))};
-  }
-
-  /// m, between the points farthest apart that two facets have in common.
-  double common_length(const Pair& pair) const {
-    double longest = 0.0;
-    const std::vector<Vec3> points = common_points(pair);
-    for (const Vec3& a : points)
-      for (const Vec3& b : points) longest = std::max(longest, (a - b).norm());
-    return longest;
-  }
-
-  bool facing(const Pair& pair) const {
-    return !share_a_node(pair) && normal(pair[0]).dot(normal(pair[1])) < 0.0;
-  }
-
   /// Where faces that touch are within each other by no more than contact may leave, they part by as little,
   /// and nothing else changes.
   void part_touching() {
@@ -252,14 +168,14 @@ private:
     constexpr double shallow = 0.01, clearance = 1e-6; // h
     for (int n = 0; n < rounds; ++n) {
       std::vector<Pair> pairs = voronoi::crossings(cloud_);
-      std::erase_if(pairs, [&](const Pair& pair) { return !facing(pair); });
+      std::erase_if(pairs, [&](const Pair& pair) { return !facets_.facing(pair); });
       if (pairs.empty()) return;
       const voronoi::Winding winding(cloud_);
       IndexedVector<NodeIndex, Vec3> way(cloud_.position.size(), Vec3::Zero());
       for (const Pair& pair : pairs) {
         const double h = size_[index_of(cloud_.facets[pair[0]].node[0])];
-        const Overlap within = overlap(pair, winding);
-        const double depth = std::min(within.depth, common_length(pair));
+        const auto within = facets_.overlap(pair, winding);
+        const double depth = std::min(within.depth, facets_.common_length(pair));
         if (depth > shallow * h) return;
         part(pair, each * (depth + clearance * h) * within.way, way);
       }
@@ -268,6 +184,60 @@ private:
         if (!way[i].isZero(0.0)) move(i, way[i]);
       align();
     }
+  }
+
+  /// Nodes of facets that cross go, one after the other, where their facets cross least. Not where images
+  /// would have to go alike.
+  void untangle() {
+    if (!groups_.empty()) return;
+    constexpr int rounds = 24;
+    for (int n = 0; n < rounds; ++n) {
+      const std::vector<Pair> pairs = voronoi::crossings(cloud_);
+      if (pairs.empty()) return;
+      activate(pairs);
+      std::vector<NodeIndex> nodes;
+      for (const Pair& pair : pairs)
+        for (const CloudFacetIndex f : pair)
+          nodes.insert(nodes.end(), cloud_.facets[f].node.begin(), cloud_.facets[f].node.end());
+      std::sort(nodes.begin(), nodes.end());
+      nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+      bool any = false;
+      for (const NodeIndex i : nodes) any = go_where_least_crosses(i) || any;
+      if (!any) return;
+    }
+  }
+
+  /// Tries steps towards the mean of its neighbours and along its normal. Whether one helps.
+  bool go_where_least_crosses(NodeIndex i) {
+    const Vec3 start = cloud_.position[i];
+    double least = crossed_length(i);
+    if (held_[i] || least == 0.0) return false;
+    Vec3 outwards = Vec3::Zero();
+    for (const CloudFacetIndex f : planes_.around(i)) outwards += facets_.normal(f);
+    const Vec3 inwards_by_h = -size_[index_of(i)] * outwards.normalized(),
+               to_mean = mean_around(i, cloud_.position) - start;
+    Vec3 best = start;
+    for (const Vec3& way : {Vec3(0.25 * to_mean), Vec3(0.5 * to_mean), to_mean, Vec3(0.05 * inwards_by_h),
+                            Vec3(0.15 * inwards_by_h), Vec3(-0.05 * inwards_by_h)}) {
+      cloud_.position[i] = start;
+      move(i, way);
+      if (const double length = crossed_length(i); length < least) {
+        least = length;
+        best = cloud_.position[i];
+      }
+    }
+    cloud_.position[i] = best;
+    return best != start;
+  }
+
+  /// m, of what the facets of a node have in common with others that they cross.
+  double crossed_length(NodeIndex i) const {
+    const auto around = planes_.around(i);
+    const double touch = 1e-6 * size_[index_of(i)];
+    double sum = 0.0;
+    for (const Pair& pair : voronoi::crossings(cloud_, {around.begin(), around.end()}))
+      sum += facets_.common_length(pair) + touch;
+    return sum;
   }
 
   /// The nodes of the first facet go by `step`, those of the second by its opposite, each as far as the
@@ -285,8 +255,8 @@ private:
     constexpr double at_once = 0.1; // h
     const voronoi::Winding winding(cloud_);
     for (const Pair& pair : pairs) {
-      if (!facing(pair)) continue;
-      const Overlap within = overlap(pair, winding);
+      if (!facets_.facing(pair)) continue;
+      const auto within = facets_.overlap(pair, winding);
       const double h = size_[index_of(cloud_.facets[pair[0]].node[0])];
       part(pair, std::min(each * within.depth, at_once * h) * within.way, way);
     }
@@ -294,24 +264,28 @@ private:
       if (!way[i].isZero()) move(i, way[i]);
   }
 
+  /// Of a node of the surface, with those beside it twice.
+  Vec3 mean_around(NodeIndex i, const IndexedVector<NodeIndex, Vec3>& position) const {
+    Vec3 sum = Vec3::Zero();
+    double count = 0.0;
+    for (const CloudFacetIndex f : planes_.around(i))
+      for (const NodeIndex k : cloud_.facets[f].node)
+        if (k != i) {
+          sum += position[k];
+          count += 1.0;
+        }
+    return sum / count;
+  }
+
   void smooth() {
+    constexpr double share = 0.5;
     const auto x = cloud_.position;
-    for (const NodeIndex i : x.indices()) {
-      if (!active_[i]) continue;
-      Vec3 sum = Vec3::Zero();
-      double count = 0.0;
-      for (const CloudFacetIndex f : planes_.around(i))
-        for (const NodeIndex k : cloud_.facets[f].node)
-          if (k != i) {
-            sum += x[k];
-            count += 1.0;
-          }
-      constexpr double share = 0.5;
-      if (count > 0.0) move(i, share * (sum / count - x[i]));
-    }
+    for (const NodeIndex i : x.indices())
+      if (active_[i]) move(i, share * (mean_around(i, x) - x[i]));
   }
 
   Cloud<3>& cloud_;
+  CrossingFacets facets_;
   IndexedVector<NodeIndex, Vec3> before_;
   const IndexedVector<NodeIndex, char>& held_;
   const Field& size_;
@@ -327,6 +301,7 @@ private:
 void unfold(Cloud<3>& cloud, const IndexedVector<NodeIndex, char>& held, const Field& size,
             const PeriodImages& images, const SurfaceRules& rules, PassReport& report) {
   const double volume = enclosed_measure(cloud);
+  const IndexedVector<NodeIndex, Vec3> before = cloud.position;
   Unfolding unfolding(cloud, held, size, images, rules);
   report.folded += unfolding.run();
   IndexedVector<NodeIndex, char> owing = unfolding.active();
@@ -334,23 +309,32 @@ void unfold(Cloud<3>& cloud, const IndexedVector<NodeIndex, char>& held, const F
   double owed = volume - enclosed_measure(cloud);
   const double enough = 0.01 * std::abs(owed);
   std::size_t crossed = voronoi::crossings(cloud).size();
-  constexpr int times = 6;
+  IndexedVector<NodeIndex, char> shut(cloud.position.size(), 0); // beside another face
+  constexpr int times = 24;
   for (int n = 0; n < times && std::abs(owed) > enough; ++n) {
-    const double each = owed / static_cast<double>(std::count(owing.begin(), owing.end(), 1));
-    Field debt(cloud.position.size(), 0.0);
+    std::vector<NodeIndex> giving;
     for (const NodeIndex i : owing.indices())
-      if (owing[i]) debt[index_of(i)] = each;
+      if (owing[i] && !shut[i]) giving.push_back(i);
+    Field debt(cloud.position.size(), 0.0);
+    for (const NodeIndex i : giving) debt[index_of(i)] = owed / static_cast<double>(giving.size());
     WorkingSurface surface(cloud, held, rules);
     give_back(surface, std::move(debt), size, SurfaceThresholds{}.give_back);
     Cloud<3> swollen = cloud;
     for (const NodeIndex i : cloud.position.indices()) swollen.position[i] = surface.at(i);
-    if (const std::size_t then = voronoi::crossings(swollen).size(); then <= crossed) {
+    if (const auto pairs = voronoi::crossings(swollen); pairs.size() <= crossed) {
       cloud = std::move(swollen);
-      crossed = then;
+      crossed = pairs.size();
       owed = volume - enclosed_measure(cloud);
+    } else {
+      for (const auto& pair : pairs)
+        for (const CloudFacetIndex f : pair)
+          for (const NodeIndex i : cloud.facets[f].node) shut[i] = 1;
+      owing = with_neighbours(cloud, owing);
     }
     owing = with_neighbours(cloud, owing);
   }
+  constexpr double most_owed = 2e-3; // of the body
+  if (std::abs(owed) > most_owed * volume) cloud.position = before;
 }
 
 } // namespace cnem::adapt

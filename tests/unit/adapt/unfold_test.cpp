@@ -148,7 +148,7 @@ TEST(Unfold, faces_that_touch_part_by_no_more_than_they_overlap) {
   body.unfold();
   double farthest = 0.0;
   for (const NodeIndex i : body.cloud.position.indices()) farthest = std::max(farthest, body.way(i).norm());
-  EXPECT_LT(farthest, 0.005 * h);
+  EXPECT_LT(farthest, 0.02 * h); // 0.4 h where all around is smoothed
 }
 
 } // namespace
