@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace cnem::contact {
@@ -182,7 +183,7 @@ bool ContactSystem<dim>::couple(const std::vector<Contact<dim>>& contacts, const
     for (auto one = from; one != to; ++one)
       for (auto other = from; other != to; ++other)
         link_.push_back(
-            {one->member, other->member, one->weight * other->weight * nodes[from->node].inverse});
+            {one->member, other->member, one->weight * other->weight, &nodes[from->node].inverse});
     from = to;
   }
   for (const ToolIndex t : tools.indices()) {
@@ -192,7 +193,7 @@ bool ContactSystem<dim>::couple(const std::vector<Contact<dim>>& contacts, const
       if (contacts[index_of(member_[m].contact)].tool == t) queue_.push_back(as<std::int32_t>(m));
     if (queue_.size() > most_on_tool) return false;
     for (const std::int32_t one : queue_)
-      for (const std::int32_t other : queue_) link_.push_back({one, other, tools[t].inverse});
+      for (const std::int32_t other : queue_) link_.push_back({one, other, 1.0, &tools[t].inverse});
   }
   return true;
 }
@@ -203,18 +204,21 @@ template<int dim> void ContactSystem<dim>::number() {
   std::sort(link_.begin(), link_.end(), [](const Link& a, const Link& b) {
     return std::pair(a.one, a.other) < std::pair(b.one, b.other);
   });
+  first_link_.assign(n + 1, 0);
+  for (const Link& link : link_) ++first_link_[index_of(link.one) + 1];
+  std::partial_sum(first_link_.begin(), first_link_.end(), first_link_.begin());
   std::int32_t start = 0;
   for (int search = 0; search < 2; ++search) {
     place_.assign(n, -1);
     queue_.assign(1, start);
     place_[index_of(start)] = 0;
     for (std::size_t q = 0; q < queue_.size(); ++q) {
-      auto link = std::lower_bound(link_.begin(), link_.end(), queue_[q],
-                                   [](const Link& a, std::int32_t m) { return a.one < m; });
-      for (; link != link_.end() && link->one == queue_[q]; ++link) {
-        if (place_[index_of(link->other)] >= 0) continue;
-        place_[index_of(link->other)] = as<std::int32_t>(queue_.size());
-        queue_.push_back(link->other);
+      const std::size_t m = index_of(queue_[q]);
+      for (std::size_t l = first_link_[m]; l < first_link_[m + 1]; ++l) {
+        const std::int32_t other = link_[l].other;
+        if (place_[index_of(other)] >= 0) continue;
+        place_[index_of(other)] = as<std::int32_t>(queue_.size());
+        queue_.push_back(other);
       }
     }
     start = queue_.back();
@@ -238,11 +242,13 @@ template<int dim> double* ContactSystem<dim>::row_of(std::vector<double>& matrix
 /// The mobilities: velocities of all members per impulse of each.
 template<int dim> void ContactSystem<dim>::fill() {
   mobility_.assign(width() * member_.size() * (2 * band_ + 1), 0.0);
-  for (const Link& link : link_)
+  for (const Link& link : link_) {
+    const Mat<dim> inverse = link.weight * *link.inverse;
     for (std::size_t k = 0; k < width(); ++k)
       for (std::size_t l = 0; l < width(); ++l)
         row_of(mobility_, row(link.one, k))[row(link.other, l)] +=
-            member_[index_of(link.one)].axis[k].dot(link.inverse * member_[index_of(link.other)].axis[l]);
+            member_[index_of(link.one)].axis[k].dot(inverse * member_[index_of(link.other)].axis[l]);
+  }
 }
 
 /// Of the last solution, with the friction that would let it stick.

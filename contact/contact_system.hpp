@@ -63,7 +63,8 @@ private:
   /// Two members that share a node or tool: what an impulse on the other does to the velocity of the one.
   struct Link {
     std::int32_t one, other;
-    Mat<dim> inverse;
+    double weight;           ///< –, of both
+    const Mat<dim>* inverse; ///< 1/kg, of the node or tool
   };
 
   bool take(std::int32_t c, const Contact<dim>& contact, const Sweeper<dim>& sweeper, double dt);
@@ -91,6 +92,7 @@ private:
   std::vector<Member> member_;
   std::vector<End> end_;
   std::vector<Link> link_;
+  std::vector<std::size_t> first_link_; ///< [member], once sorted, and where the last ends
   std::vector<std::array<std::size_t, Contact<dim>::slots>> first_end_; ///< [member] of those at its nodes
   std::vector<std::int32_t> place_, queue_; ///< [member] number, and [number] member
   std::vector<double> mobility_, matrix_;   ///< rows of 2 band + 1
