@@ -309,15 +309,15 @@ void unfold(Cloud<3>& cloud, const IndexedVector<NodeIndex, char>& held, const F
   double owed = volume - enclosed_measure(cloud);
   const double enough = 0.01 * std::abs(owed);
   std::size_t crossed = voronoi::crossings(cloud).size();
-  IndexedVector<NodeIndex, char> shut(cloud.position.size(), 0); // beside another face
+  IndexedVector<NodeIndex, char> still = held; // and what lies on another face
   constexpr int times = 24;
   for (int n = 0; n < times && std::abs(owed) > enough; ++n) {
     std::vector<NodeIndex> giving;
     for (const NodeIndex i : owing.indices())
-      if (owing[i] && !shut[i]) giving.push_back(i);
+      if (owing[i] && !still[i]) giving.push_back(i);
     Field debt(cloud.position.size(), 0.0);
     for (const NodeIndex i : giving) debt[index_of(i)] = owed / static_cast<double>(giving.size());
-    WorkingSurface surface(cloud, held, rules);
+    WorkingSurface surface(cloud, still, rules);
     give_back(surface, std::move(debt), size, SurfaceThresholds{}.give_back);
     Cloud<3> swollen = cloud;
     for (const NodeIndex i : cloud.position.indices()) swollen.position[i] = surface.at(i);
@@ -328,7 +328,7 @@ void unfold(Cloud<3>& cloud, const IndexedVector<NodeIndex, char>& held, const F
     } else {
       for (const auto& pair : pairs)
         for (const CloudFacetIndex f : pair)
-          for (const NodeIndex i : cloud.facets[f].node) shut[i] = 1;
+          for (const NodeIndex i : cloud.facets[f].node) still[i] = 1;
       owing = with_neighbours(cloud, owing);
     }
     owing = with_neighbours(cloud, owing);
