@@ -11,7 +11,6 @@ namespace cnem::contact {
 namespace {
 
 constexpr double relative = 1e-9; ///< of the depth: what solved contacts may still move by
-constexpr std::size_t few = 16;   ///< contacts of a group, whose systems cost little more than sweeps
 constexpr int sweeps_before = 2;  ///< the first system; before the next one three times as many, and so on
 
 /// Moves a free tool together with all nodes that press on its faces so that their gaps close: exact when the
@@ -60,15 +59,8 @@ template<int dim>
 bool leave_to_sweeps(std::vector<Contact<dim>>& contacts, std::span<const std::int32_t> group) {
   const auto between_bodies = [&](std::int32_t c) { return !exists(contacts[index_of(c)].tool); };
   if (dim == 2 || std::none_of(group.begin(), group.end(), between_bodies)) return false;
-  for (const std::int32_t c : group) contacts[index_of(c)].swept = contacts[index_of(c)].given_up = true;
+  for (const std::int32_t c : group) contacts[index_of(c)].swept = true;
   return true;
-}
-
-/// Whether an earlier pass of the step has left it to sweeps, or a part of it.
-template<int dim>
-bool is_left_to_sweeps(const std::vector<Contact<dim>>& contacts, std::span<const std::int32_t> group) {
-  return std::any_of(group.begin(), group.end(),
-                     [&](std::int32_t c) { return contacts[index_of(c)].given_up; });
 }
 
 } // namespace
@@ -110,14 +102,6 @@ double ImpulseSolver<dim>::solve(std::vector<Contact<dim>>& contacts, ReactionsO
     const double measure = std::max(depth, known_depth);
     double least = std::max(tolerance, relative * measure);
     int next = sweeps_before;
-    const auto sweep_only = [&] {
-      if (!leave_to_sweeps(contacts, group)) return;
-      next = 0;
-      least = std::max(least, rest_of_swept * measure);
-      for (std::size_t i = 0; i < group.size(); ++i)
-        if (sweeper(group[i]).isotropic()) sideways_[i] = mobility_[i];
-    };
-    if (is_left_to_sweeps(contacts, group)) sweep_only();
     for (int sweep = 1; sweep <= sweeps; ++sweep) {
       double moved = 0.0;
       for (std::size_t i = 0; i < group.size(); ++i) {
@@ -132,8 +116,11 @@ double ImpulseSolver<dim>::solve(std::vector<Contact<dim>>& contacts, ReactionsO
       if (sweep == next) {
         const auto outcome = system_.settle(contacts, group, nodes, tools, dt, depth, measure);
         next = outcome == ContactSystem<dim>::Outcome::costly ? 0 : 3 * next;
-        if (next == 0 || (outcome == ContactSystem<dim>::Outcome::unsettled && group.size() > few))
-          sweep_only();
+        if (next == 0 && leave_to_sweeps(contacts, group)) {
+          least = std::max(least, rest_of_swept * measure);
+          for (std::size_t i = 0; i < group.size(); ++i)
+            if (sweeper(group[i]).isotropic()) sideways_[i] = mobility_[i];
+        }
       }
     }
   }

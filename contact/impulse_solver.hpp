@@ -18,9 +18,8 @@ namespace cnem::contact {
 /// (contact/contact_system.hpp) takes them to the solution, and one more sweep shows that it is one. Where it
 /// is not, as between tools that leave a node no room, sweeps go on.
 ///
-/// In space groups of bodies on bodies (faces that lie on each other) whose band is wide, or that have more
-/// than 16 contacts and do not settle at the first attempt, are left to sweeps and marked as such
-/// (Contact::swept), for the rest of the step (Contact::given_up).
+/// In space groups of bodies on bodies with a wide band (faces that lie on each other) are left to sweeps and
+/// marked as such (Contact::swept).
 template<int dim> class ImpulseSolver {
 public:
   static constexpr double rest_of_swept = 1e-4; ///< of the depth: what these may still move by

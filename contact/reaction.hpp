@@ -47,8 +47,7 @@ template<int dim> struct Contact {
 
   double pressing = 0.0;               ///< N s, normal impulse ≥ 0
   Vec<dim> sliding = Vec<dim>::Zero(); ///< N s, tangential impulse
-  bool swept = false;                  ///< in a group that is left to sweeps, in this step or in the last
-  bool given_up = false;               ///< left to sweeps for the rest of this step
+  bool swept = false;                  ///< in a group that is left to sweeps
   Vec<dim> impulse() const { return pressing * normal + sliding; }
 
   /// N s, what friction bears at most at a normal impulse (N s): at the present one, or at another.

@@ -2,10 +2,8 @@
 #include "tests/unit/contact/impulse_scenes.hpp"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
-#include <iterator>
 #include <random>
 
 using namespace cnem;
@@ -46,27 +44,6 @@ Scene<3> sheet(int side, Law law, double coefficient, std::mt19937& random, doub
     }
   set_law(scene, law, coefficient, random);
   return scene;
-}
-
-/// Between bodies, all in one group: each presses on node 0, too.
-Scene<3> bodies(int side, std::mt19937& random) {
-  Scene<3> scene = sheet(side, Law::coulomb, 0.2, random);
-  for (Contact<3>& contact : scene.contacts) {
-    contact.tool = ToolIndex::none;
-    contact.node[3] = 0_boundary;
-    contact.weight[3] = 0.01;
-  }
-  return scene;
-}
-
-/// Such that what is held would have to slip along its hold, which no system settles.
-void drag(Scene<3>& scene) {
-  for (Contact<3>& contact : scene.contacts) contact.surface = {0.2, 0.3, 0.0};
-}
-
-std::ptrdiff_t left_to_sweeps(const Scene<3>& scene) {
-  return std::count_if(scene.contacts.begin(), scene.contacts.end(),
-                       [](const Contact<3>& c) { return c.swept && c.given_up; });
 }
 
 } // namespace
@@ -141,46 +118,6 @@ TEST(ImpulseSolverInSpace, what_slips_along_its_hold_is_left_to_sweeps) {
   ASSERT_TRUE(sweep_until_rest(swept, rounding));
   ImpulseSolver<3>().solve(scene.contacts, scene.nodes, scene.tools, dt, 1e-18, 1000);
   EXPECT_LE(difference(scene, swept), 1e-6);
-}
-
-// Faces that lie on each other over-determine each other: systems rarely settle and cost more than sweeps.
-TEST(ImpulseSolverInSpace, large_groups_of_bodies_that_do_not_settle_are_left_to_sweeps) {
-  std::mt19937 random(13);
-  Scene<3> scene = bodies(5, random);
-  ASSERT_GT(scene.contacts.size(), 16u);
-  drag(scene);
-  Scene<3> on_tool = scene, rested = scene;
-  for (Contact<3>& contact : on_tool.contacts) contact.tool = 0_tool;
-  ASSERT_TRUE(sweep_until_rest(rested, rounding));
-  ImpulseSolver<3>().solve(scene.contacts, scene.nodes, scene.tools, dt, 1e-18, 1000);
-  EXPECT_EQ(left_to_sweeps(scene), std::ssize(scene.contacts));
-  EXPECT_LE(difference(scene, rested), 1e-2);
-  EXPECT_GT(difference(scene, rested), 1e-8) << "they rest at 1e-4 of the depth";
-  ImpulseSolver<3>().solve(on_tool.contacts, on_tool.nodes, on_tool.tools, dt, 1e-18, 1000);
-  EXPECT_EQ(left_to_sweeps(on_tool), 0);
-}
-
-TEST(ImpulseSolverInSpace, small_groups_of_bodies_are_not_left_to_sweeps) {
-  std::mt19937 random(13);
-  Scene<3> scene = bodies(3, random);
-  ASSERT_LE(scene.contacts.size(), 16u);
-  drag(scene);
-  Scene<3> rested = scene;
-  ASSERT_TRUE(sweep_until_rest(rested, rounding));
-  ImpulseSolver<3>().solve(scene.contacts, scene.nodes, scene.tools, dt, 1e-18, 5000);
-  EXPECT_EQ(left_to_sweeps(scene), 0);
-  EXPECT_LE(difference(scene, rested), 1e-6);
-}
-
-TEST(ImpulseSolverInSpace, what_an_earlier_pass_left_to_sweeps_is_not_tried_again) {
-  std::mt19937 random(5);
-  Scene<3> scene = bodies(3, random), given_up = scene;
-  ImpulseSolver<3>().solve(scene.contacts, scene.nodes, scene.tools, dt, 1e-18, 1000);
-  EXPECT_EQ(left_to_sweeps(scene), 0) << "it settles";
-  given_up.contacts.front().given_up = true;
-  ImpulseSolver<3>().solve(given_up.contacts, given_up.nodes, given_up.tools, dt, 1e-18, 1000);
-  EXPECT_EQ(left_to_sweeps(given_up), std::ssize(given_up.contacts));
-  EXPECT_LE(difference(given_up, scene), 1e-2);
 }
 
 // So that a run that is taken up again goes on with the same bits.
