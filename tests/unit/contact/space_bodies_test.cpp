@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numbers>
 #include <numeric>
 #include <random>
 
@@ -165,20 +166,22 @@ TEST(SpaceBodies, results_do_not_depend_on_when_pairs_were_listed) {
   EXPECT_LT(seldom.contact->near().listings(), 500);
 }
 
-TEST(SpaceBodies, edges_that_cross_stop_each_other) {
-  // two roofs, ridge across ridge, whose nodes never meet a facet
-  const auto roof = [](SpaceMasses& scene, double side, double mass) {
+class Roofs : public ::testing::TestWithParam<double> {};
+
+TEST_P(Roofs, edges_that_cross_stop_each_other) {
+  // two roofs, the ridge of one across that of the other, whose nodes never meet a facet
+  const auto roof = [](SpaceMasses& scene, const Mat<3>& turn, double up, double mass) {
     const int first = scene.nodes();
     for (const Vec3& x : {Vec3(-1, 0, 0), Vec3(1, 0, 0), Vec3(-1, -0.2, -1), Vec3(1, -0.2, -1),
                           Vec3(-1, 0.2, -1), Vec3(1, 0.2, -1)})
-      scene.add(side > 0.0 ? Vec3(x) : Vec3(x.y(), x.x(), 0.01 - x.z()), mass);
+      scene.add(turn * x + Vec3(0, 0, up), mass);
     const auto facet = [&](int a, int b, int c) { scene.facet(first + a, first + b, first + c); };
     facet(0, 2, 3), facet(0, 3, 1), facet(0, 1, 5), facet(0, 5, 4);
     facet(2, 4, 5), facet(2, 5, 3), facet(0, 4, 2), facet(1, 3, 5);
   };
   SpaceMasses scene;
-  roof(scene, 1.0, 1.0);
-  roof(scene, -1.0, 2.0);
+  roof(scene, Mat<3>::Identity(), 0.0, 1.0);
+  roof(scene, rotation_about({0, 0, 1}, GetParam()) * rotation_about({1, 0, 0}, std::numbers::pi), 0.01, 2.0);
   for (int i = 6; i < 12; ++i) scene.v[2][std::size_t(i)] = -1.0;
   scene.start({}, BodyContactLaw{true, Coulomb{0.0}});
   const Vec3 momentum = scene.momentum();
@@ -191,6 +194,8 @@ TEST(SpaceBodies, edges_that_cross_stop_each_other) {
   EXPECT_LT((scene.momentum() - momentum).norm(), 1e-13);
   EXPECT_LT(scene.velocity(0).z(), -0.1) << "the ridge below has taken its share";
 }
+
+INSTANTIATE_TEST_SUITE_P(SpaceBodies, Roofs, ::testing::Values(0.5 * std::numbers::pi, 0.5, 0.02)); // rad
 
 // Nodes of a lattice stand above each other, where a ray upwards meets nodes and edges.
 TEST(SpaceBodies, sides_of_a_thin_lattice_pass_each_other_however_it_is_numbered) {
