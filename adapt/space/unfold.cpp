@@ -296,6 +296,22 @@ private:
   IndexedVector<NodeIndex, char> within_seam_; ///< whether all facets of a node are of seams
 };
 
+/// The cloud with nodes moved so that it encloses `volume` (m³) more, as far as give_back() can.
+Cloud<3> swollen_by(double volume, const Cloud<3>& cloud, const IndexedVector<NodeIndex, char>& giving,
+                    const IndexedVector<NodeIndex, char>& fixed, const Field& size,
+                    const SurfaceRules& rules) {
+  double count = 0.0;
+  for (const NodeIndex i : giving.indices()) count += giving[i] && !fixed[i];
+  Field debt(cloud.position.size(), 0.0);
+  for (const NodeIndex i : giving.indices())
+    if (giving[i] && !fixed[i]) debt[index_of(i)] = volume / count;
+  WorkingSurface surface(cloud, fixed, rules);
+  give_back(surface, std::move(debt), size, SurfaceThresholds{}.give_back);
+  Cloud<3> swollen = cloud;
+  for (const NodeIndex i : cloud.position.indices()) swollen.position[i] = surface.at(i);
+  return swollen;
+}
+
 } // namespace
 
 void unfold(Cloud<3>& cloud, const IndexedVector<NodeIndex, char>& held, const Field& size,
@@ -312,24 +328,18 @@ void unfold(Cloud<3>& cloud, const IndexedVector<NodeIndex, char>& held, const F
   IndexedVector<NodeIndex, char> still = held; // and what lies on another face
   constexpr int times = 24;
   for (int n = 0; n < times && std::abs(owed) > enough; ++n) {
-    std::vector<NodeIndex> giving;
-    for (const NodeIndex i : owing.indices())
-      if (owing[i] && !still[i]) giving.push_back(i);
-    Field debt(cloud.position.size(), 0.0);
-    for (const NodeIndex i : giving) debt[index_of(i)] = owed / static_cast<double>(giving.size());
-    WorkingSurface surface(cloud, still, rules);
-    give_back(surface, std::move(debt), size, SurfaceThresholds{}.give_back);
-    Cloud<3> swollen = cloud;
-    for (const NodeIndex i : cloud.position.indices()) swollen.position[i] = surface.at(i);
-    if (const auto pairs = voronoi::crossings(swollen); pairs.size() <= crossed) {
-      cloud = std::move(swollen);
-      crossed = pairs.size();
-      owed = volume - enclosed_measure(cloud);
-    } else {
+    for (const auto* fixed : {&held, &std::as_const(still)}) {
+      Cloud<3> swollen = swollen_by(owed, cloud, owing, *fixed, size, rules);
+      const auto pairs = voronoi::crossings(swollen);
+      if (pairs.size() <= crossed) {
+        cloud = std::move(swollen);
+        crossed = pairs.size();
+        owed = volume - enclosed_measure(cloud);
+        break;
+      }
       for (const auto& pair : pairs)
         for (const CloudFacetIndex f : pair)
           for (const NodeIndex i : cloud.facets[f].node) still[i] = 1;
-      owing = with_neighbours(cloud, owing);
     }
     owing = with_neighbours(cloud, owing);
   }

@@ -148,7 +148,7 @@ keep = 3
          R"toml(
 [materials.steel.damage]
 law = "johnson-cook"
-D1 = 0.1
+D1 = 0.09
 D2 = 0.2
 D3 = -1.5
 fracture_energy = "10 kJ/m2"
