@@ -23,7 +23,8 @@ namespace cnem::adapt {
 /// hundredth if they can, as give_back() does, in 24 rounds; where 0.2% of the body are left all nodes go
 /// back. Counts the nodes that unfolding moves as folded. held: [node] those that stay; size: [node] m,
 /// wanted spacing; images: nodes that continue each other a period away, which move alike. O(F log² F) for
-/// each of the rounds. Throws GeometryError as voronoi::surface_edges() does.
+/// each of the rounds, and O(F) for each node that is tried. Throws GeometryError as voronoi::surface_edges()
+/// does.
 void unfold(Cloud<3>& cloud, const IndexedVector<NodeIndex, char>& held, const Field& size,
             const PeriodImages& images, const SurfaceRules& rules, PassReport& report);
 

@@ -3,6 +3,7 @@
 #include "evaluate/cutting_result.hpp"
 #include "tests/finished_run.hpp"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -42,15 +43,17 @@ TEST(CuttingReport, of_a_frictionless_cut_has_its_force_along_the_normal_of_the_
 }
 
 /// What the edge has burnished is pressed along the surface. On so coarse a cloud a rounding anywhere makes
-/// it anything between 9 and 66 MPa, hence the mean of four runs with other steps.
+/// it anything between -42 and 126 MPa, hence the mean of eight runs with other steps: 21 MPa with AVX2, 41
+/// without.
 TEST(CuttingReport, what_the_edge_has_burnished_is_pressed_along_the_surface) {
   double mean = 0.0;
-  for (const char* safety : {"0.9", "0.8998", "0.8996", "0.8994"}) {
+  constexpr std::array starts{"0.9", "0.8998", "0.8996", "0.8994", "0.8992", "0.899", "0.8988", "0.8986"};
+  for (const char* safety : starts) {
     const input::Case input = input::read_case(
         std::string(CNEM_SOURCE_DIR) + "/cases/verification/edge_flow/case.toml",
         {"cloud.spacing=0.1 mm", "adapt.tool_spacing=0.02 mm", "time.end=75 us", "output.pictures=[]",
          "output.fields_every=1 s", "report.cutting.width=4 mm", std::string("time.step.safety=") + safety});
-    mean += 0.25 * finish(input).metric("cutting.residual_stress_surface");
+    mean += finish(input).metric("cutting.residual_stress_surface") / double(starts.size());
   }
   EXPECT_LT(mean, -0.02 * 440e6);
   EXPECT_GT(mean, -0.3 * 440e6);

@@ -34,8 +34,9 @@ TEST(ToolResponse, the_scheme_of_contact_is_that_of_all_tools_without_a_response
   EXPECT_TRUE(tool({scheme}).is<contact::Penalty>());
   EXPECT_EQ(tool({scheme}).step_share(), contact::Penalty{2.0}.step_share());
   EXPECT_TRUE(tool({scheme, "tools.cutter.response.law=exact"}).exact());
+  // with spacings of 0.118 to 0.125 mm and two instruction sets the residual is 0.25 to 1.5%, by chance
   const double exact = force(testing::run(answered_cut)),
-               springs = force(testing::run(answered_cut, {scheme}, 6e-3)); // 5.1e-3 with AVX2
+               springs = force(testing::run(answered_cut, {scheme}, 2e-2));
   EXPECT_NEAR(springs, exact, 0.1 * exact);
   EXPECT_NE(springs, exact);
 }

@@ -5,6 +5,7 @@
 #include "core/index.hpp"
 #include "voronoi/space/facet_flips.hpp"
 #include "voronoi/space/flat_flips.hpp"
+#include "voronoi/space/opened.hpp"
 #include "voronoi/space/surface.hpp"
 
 #include <algorithm>
@@ -115,6 +116,11 @@ Tetrahedra numbered(const Cloud<3>& cloud, const Delaunay& mesh, const Walls& wa
 
 Filling filling(const Cloud<3>& cloud, Delaunay mesh) {
   Walls walls = find_walls(cloud, mesh);
+  if (auto opened = filling_of_opened(cloud, walls.lost)) return std::move(*opened);
+  return held_filling(cloud, std::move(mesh), std::move(walls));
+}
+
+Filling held_filling(const Cloud<3>& cloud, Delaunay mesh, Walls walls) {
   const bool lost = !walls.lost.empty();
   if (lost) walls = hold_facets(cloud, mesh, std::move(walls));
   if (!walls.lost.empty()) throw_lost(cloud, walls.lost);

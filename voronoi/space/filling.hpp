@@ -10,10 +10,12 @@ struct Filling {
       false; ///< whether there are others than Delaunay's: which ones the numbers of nodes may tell
 };
 
-/// Of a cloud whose surface is one and its Delaunay triangulation, which is flipped where it lacks facets:
-/// tetrahedra from their lowest node on, in the order of their nodes. O(N). Throws GeometryError, naming
-/// nodes, as triangulate().
+/// Of a cloud whose surface is one and its Delaunay triangulation. Where that lacks facets the cloud is
+/// opened (opened.hpp) or the triangulation flipped. Tetrahedra from their lowest node on, in the order of
+/// their nodes. O(N log N). Throws GeometryError, naming nodes, as triangulate().
 Filling filling(const Cloud<3>& cloud, Delaunay mesh);
+/// The same by flips alone, with the walls of the triangulation.
+Filling held_filling(const Cloud<3>& cloud, Delaunay mesh, Walls walls);
 /// The same of tetrahedra that have all facets, with their walls: `flipped` tells of those that are flat
 /// alone.
 Filling filling(const Cloud<3>& cloud, Delaunay mesh, Walls walls);

@@ -1,12 +1,13 @@
 #include "voronoi/space/opened.hpp"
 
 #include "core/error.hpp"
-#include "core/geometry/facets.hpp"
 #include "core/geometry/surface_distance.hpp"
 #include "core/index.hpp"
 #include "voronoi/space/crossings.hpp"
+#include "voronoi/space/exact.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace cnem::voronoi {
 
@@ -87,7 +88,9 @@ public:
                           cloud.position[node[3]]};
       };
       const std::array<Vec3, 4> place = corners(cloud_);
-      if (measure<3>(place) > 0.0 && (!is_flat(place) || is_flat(corners(moved)))) continue;
+      if (orientation(place[0], place[1], place[2], place[3]) > 0 &&
+          (!is_flat(place) || is_flat(corners(moved))))
+        continue;
       any = true;
       for (const NodeIndex i : node) leave(i);
     }
@@ -176,7 +179,9 @@ std::optional<Filling> filling_of_opened(const Cloud<3>& cloud, const std::vecto
     for (int n = 0; n < attempts; ++n) {
       const std::optional<Cloud<3>> moved = body.places();
       if (!moved) break;
-      Filling result = filling(*moved, delaunay(*moved));
+      Delaunay mesh = delaunay(*moved);
+      Walls walls = find_walls(*moved, mesh);
+      Filling result = held_filling(*moved, std::move(mesh), std::move(walls));
       if (body.leave_without_volume(result.tetrahedra, *moved)) continue;
       result.flipped = true;
       return result;

@@ -29,17 +29,16 @@ struct RecoveredBoundary {
   bool flipped = false; ///< whether there are others than Delaunay's among the tetrahedra (filling.hpp)
 };
 
-/// The cheapest first: (1) Lawson's flips of the surface within named pieces, then, where faces touch, what
-/// opened.hpp does, else flips to diagonals that the tetrahedra have, such that none that is flat to rounding
-/// lies on the inner side of two facets; (2) flips
-/// of tetrahedra (facet_flips.hpp), which change neither nodes nor surface; (3) flips of the surface at
-/// larger angles; (4) inner nodes in diametral balls of lost facets go; (5) the boundary of the tetrahedra
-/// inside becomes the surface, if it is a manifold with the same nodes, where tetrahedra that are flat on a
-/// face count as outside and new facets inherit their piece. Nodes keep their places and their order, creases
-/// between pieces stay but for (5). Flips after which facets cross each other are done on planes alone.
-/// triangulate() of the new cloud gives the tetrahedra. Bodies (Cloud::body) are recovered each for itself,
-/// and may overlap: facets stand body after body then. O(N log N). Throws GeometryError as triangulate(), and
-/// where nothing helps, naming a facet that is lost.
+/// The cheapest first: (1) Lawson's flips of the surface within named pieces; then, where faces touch, these
+/// are set apart (opened.hpp), else flips to diagonals that the tetrahedra have, such that none that is flat
+/// to rounding lies on the inner side of two facets; (2) flips of tetrahedra (facet_flips.hpp), which change
+/// neither nodes nor surface; (3) flips of the surface at larger angles; (4) inner nodes in diametral balls
+/// of lost facets go; (5) the boundary of the tetrahedra inside becomes the surface, if it is a manifold with
+/// the same nodes, where tetrahedra that are flat on a face count as outside and new facets inherit their
+/// piece. Nodes keep their places and their order, creases between pieces stay but for (5). Flips after which
+/// facets cross each other are done on planes alone. triangulate() of the new cloud gives the tetrahedra.
+/// Bodies (Cloud::body) are recovered each for itself, and may overlap: facets stand body after body then.
+/// O(N log N). Throws GeometryError as triangulate(), and where nothing helps, naming a facet that is lost.
 RecoveredBoundary recover_boundary(const Cloud<3>& cloud, const RecoveryRules& rules = {});
 
 } // namespace cnem::voronoi

@@ -2,11 +2,9 @@
 
 #include "voronoi/space/bodies.hpp"
 #include "voronoi/space/filling.hpp"
-#include "voronoi/space/opened.hpp"
 #include "voronoi/space/surface.hpp"
 
 #include <cassert>
-#include <utility>
 
 namespace cnem::voronoi {
 
@@ -14,10 +12,7 @@ namespace {
 
 Tetrahedra of_one_body(const Cloud<3>& cloud) {
   surface_edges(cloud);
-  Delaunay mesh = delaunay(cloud);
-  if (auto opened = filling_of_opened(cloud, find_walls(cloud, mesh).lost))
-    return std::move(opened->tetrahedra);
-  return filling(cloud, std::move(mesh)).tetrahedra;
+  return filling(cloud, delaunay(cloud)).tetrahedra;
 }
 
 Tetrahedra from_nothing(const Cloud<3>& cloud) {

@@ -32,12 +32,14 @@ struct Folded {
     ASSERT_FALSE(voronoi::crossings(cloud).empty());
   }
   void unfold() {
+    unfold_with(IndexedVector<NodeIndex, char>(cloud.position.size(), 0));
+    EXPECT_TRUE(voronoi::crossings(cloud).empty());
+  }
+  void unfold_with(const IndexedVector<NodeIndex, char>& held) {
     SurfaceRules rules;
     for (const Period& period : periods) rules.still.insert(rules.still.end(), period.begin(), period.end());
     const std::size_t nodes = cloud.position.size();
-    adapt::unfold(cloud, IndexedVector<NodeIndex, char>(nodes, 0), Field(nodes, h),
-                  PeriodImages(cloud, periods), rules, report);
-    EXPECT_TRUE(voronoi::crossings(cloud).empty());
+    adapt::unfold(cloud, held, Field(nodes, h), PeriodImages(cloud, periods), rules, report);
   }
   Vec3 way(NodeIndex i) const { return cloud.position[i] - before[i]; }
 };
@@ -137,6 +139,22 @@ TEST(Unfold, walls_of_a_notch_part) {
   const double volume = enclosed_measure(body.cloud);
   body.unfold();
   EXPECT_NEAR(enclosed_measure(body.cloud), volume, 2e-4 * volume);
+}
+
+// The same walls, where nothing but them may move: what they lose cannot be given back, and nothing is done.
+TEST(Unfold, goes_back_where_the_body_would_lose_volume) {
+  Folded body(testing::SpaceShape::notch);
+  IndexedVector<NodeIndex, char> held(body.cloud.position.size(), 0);
+  body.fold([&](const Vec3& x) {
+    const NodeIndex i = as<NodeIndex>(&x - &*body.cloud.position.begin());
+    const double bulge = 0.6 * h * bump(x, {0.3, x.y(), 0.24}, 2.0 * h);
+    const double side = std::abs(x.y() - 0.5) < 1e-9 ? 1.0 : std::abs(x.y() - 0.5 - h) < 1e-9 ? -1.0 : 0.0;
+    held[i] = x.x() > 0.5 - 0.1 * h || side == 0.0;
+    return held[i] ? x : Vec3(x + side * bulge * Vec3::UnitY());
+  });
+  body.unfold_with(held);
+  EXPECT_FALSE(voronoi::crossings(body.cloud).empty());
+  for (const NodeIndex i : body.cloud.position.indices()) EXPECT_EQ(body.cloud.position[i], body.before[i]);
 }
 
 // Contact leaves faces that press on each other within each other by next to nothing.

@@ -53,6 +53,23 @@ void expect_doubt(const Texts& overrides, const std::string& part) {
 
 TEST(Plausibility, a_sound_case_has_no_doubts) { EXPECT_EQ(doubts_with({}), Texts{}); }
 
+TEST(Plausibility, supports_that_prescribe_different_motions) {
+  const Texts held{"boundary.low.pieces=[\"bottom\"]", "boundary.low.velocity.x=0 m/s",
+                   "boundary.side.pieces=[\"right\"]"};
+  const auto with = [&](const std::string& speed) {
+    Texts overrides = held;
+    overrides.push_back("boundary.side.velocity.x=" + speed);
+    return doubts_with(overrides);
+  };
+  EXPECT_EQ(with("0 m/s"), Texts{});
+  const Texts list = with("1 m/s");
+  ASSERT_EQ(list.size(), 1U);
+  EXPECT_NE(list.front().find("key 'boundary.side': prescribes another motion along (1, 0) than boundary.low "
+                              "of a node that both hold, such as the one at (0.008, 0) m"),
+            std::string::npos)
+      << list.front();
+}
+
 TEST(Plausibility, constants_a_power_of_ten_off) {
   expect_doubt(
       {"materials.steel.elastic.young=207 MPa", "materials.steel.plastic.yield=1 MPa",
