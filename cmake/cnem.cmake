@@ -1,5 +1,11 @@
 # Helpers shared by the library, test and benchmark targets.
 
+if(CNEM_UNITY AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # Units of a folder's files fill more memory than GCC thinks of when it begins to collect what it no longer needs: up to a
+  # fifth of the time to compile goes into that for little.
+  add_compile_options(--param=ggc-min-heapsize=800000) # kB
+endif()
+
 function(cnem_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <fmt/format.h>
 #include <numbers>
 
 namespace cnem::testing {
@@ -50,9 +51,9 @@ TEST(CuttingReport, what_the_edge_has_burnished_is_pressed_along_the_surface) {
   constexpr std::array starts{"0.9", "0.8998", "0.8996", "0.8994", "0.8992", "0.899", "0.8988", "0.8986"};
   for (const char* safety : starts) {
     const input::Case input = input::read_case(
-        std::string(CNEM_SOURCE_DIR) + "/cases/verification/edge_flow/case.toml",
+        CNEM_SOURCE_DIR "/cases/verification/edge_flow/case.toml",
         {"cloud.spacing=0.1 mm", "adapt.tool_spacing=0.02 mm", "time.end=75 us", "output.pictures=[]",
-         "output.fields_every=1 s", "report.cutting.width=4 mm", std::string("time.step.safety=") + safety});
+         "output.fields_every=1 s", "report.cutting.width=4 mm", fmt::format("time.step.safety={}", safety)});
     mean += finish(input).metric("cutting.residual_stress_surface") / double(starts.size());
   }
   EXPECT_LT(mean, -0.02 * 440e6);
