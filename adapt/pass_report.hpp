@@ -21,6 +21,7 @@ struct PassReport {
   int balanced = 0;         ///< exchanges of mass between neighbours
   int undone = 0;           ///< rounds given up because the cloud had no valid structure after them
   int crossings = 0;        ///< pairs of facets in space that crossed when the pass began
+  int side_crossings = 0;   ///< those of them in which a side of a period has taken part
   double volume_change = 0; ///< of the domain: m³ per metre of thickness, or of the body
   bool changed() const {
     return opened + crumbs + folded + outside + removed + removed_boundary + promoted + inserted +

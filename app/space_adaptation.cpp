@@ -30,13 +30,13 @@ void keep_bodies_apart(const IndexedVector<NodeIndex, std::int32_t>& body,
 
 using Report = adapt::PassReport;
 constexpr std::pair<const char*, int Report::*> counts[] = {
-    {"cuts", &Report::cuts},          {"opened", &Report::opened},
-    {"folded", &Report::folded},      {"outside", &Report::outside},
-    {"removed", &Report::removed},    {"removed_boundary", &Report::removed_boundary},
-    {"inserted", &Report::inserted},  {"inserted_boundary", &Report::inserted_boundary},
-    {"flipped", &Report::flipped},    {"straightened", &Report::straightened},
-    {"balanced", &Report::balanced},  {"undone", &Report::undone},
-    {"crossings", &Report::crossings}};
+    {"cuts", &Report::cuts},           {"opened", &Report::opened},
+    {"folded", &Report::folded},       {"outside", &Report::outside},
+    {"removed", &Report::removed},     {"removed_boundary", &Report::removed_boundary},
+    {"inserted", &Report::inserted},   {"inserted_boundary", &Report::inserted_boundary},
+    {"flipped", &Report::flipped},     {"straightened", &Report::straightened},
+    {"balanced", &Report::balanced},   {"undone", &Report::undone},
+    {"crossings", &Report::crossings}, {"side_crossings", &Report::side_crossings}};
 
 /// Those of the reference, which nodes that have moved by less than its strain have left sound: new ones
 /// would need a boundary that is recovered.
@@ -147,6 +147,7 @@ double SpaceAdaptation::renew(ExplicitSolver<3>& solver, const Follow& follow) {
     return share_changed(change);
   } catch (const GeometryError&) { // the surface that crosses itself is why most fail
     total_.crossings += report.crossings;
+    total_.side_crossings += report.side_crossings;
     size_ = size_before;
     estimate_ = estimate_before;
     throw;

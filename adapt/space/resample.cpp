@@ -306,6 +306,12 @@ Resampling<3> resample(const Cloud<3>& present, NodeProperties properties, const
   const auto pairs = voronoi::crossings(cloud);
   if (!pairs.empty()) {
     report.crossings += static_cast<int>(pairs.size());
+    report.side_crossings +=
+        static_cast<int>(std::count_if(pairs.begin(), pairs.end(), [&](const auto& pair) {
+          return std::any_of(pair.begin(), pair.end(), [&](CloudFacetIndex f) {
+            return rules.surface.is_still(cloud.facets[f].piece);
+          });
+        }));
     unfold(cloud, properties.held, properties.size, images, rules.surface, report);
   }
   // Where facets are lost the other side of the body is nearer than they are long: they become shorter there,

@@ -33,17 +33,21 @@ struct Periodic {
     size.assign(mass.size(), 1.0 / cells);
   }
 
-  /// One pass; what must hold after each.
-  void pass() {
+  Resampling<3> resampled(PassReport& report) const {
     NodeProperties properties;
     properties.mass = mass;
     properties.jacobian = jacobian;
     properties.density.assign(mass.size(), 1.0);
     properties.size = size;
     properties.held.assign(mass.size(), 0);
+    return resample(cloud, std::move(properties), rules, report);
+  }
+
+  /// One pass; what must hold after each.
+  void pass() {
     PassReport report;
     const double before = enclosed_measure(cloud);
-    const Resampling<3> change = resample(cloud, std::move(properties), rules, report);
+    const Resampling<3> change = resampled(report);
     for (const Period& period : rules.periods) {
       const auto pairs = shifted_nodes(change.cloud, period);
       const Vec3 shift = change.cloud.position[pairs[0][1]] - change.cloud.position[pairs[0][0]];
@@ -95,6 +99,27 @@ TEST(Periods, two_directions_meet_in_edges) {
     body.pass();
   }
   EXPECT_GT(body.total.inserted_boundary, 20);
+}
+
+/// Where a side has come through the skin no two parts of the metal are at one place.
+TEST(Periods, crossings_of_sides_are_counted_apart) {
+  for (const bool of_side : {true, false}) {
+    Periodic body({"x"});
+    const double h = body.size[0];
+    for (Vec3& x : body.cloud.position) {
+      const bool in_side = x.x() < 1e-9 || x.x() > 1.0 - 1e-9, below = std::abs(x.z() - (1.0 - h)) < 1e-9,
+                 beside_middle = std::abs(x.y() - 0.5) < 1.1 * h;
+      if (of_side && in_side && below && beside_middle)
+        x += h * Vec3(0.6, 0.0, 1.05);
+      else if (!of_side && (x - Vec3(0.5, 0.0, 1.0)).norm() < 1e-9)
+        x += h * Vec3(1.15, 0.0, -0.1);
+    }
+    PassReport report;
+    const Resampling<3> change = body.resampled(report);
+    EXPECT_GT(report.crossings, 0);
+    EXPECT_EQ(report.side_crossings, of_side ? report.crossings : 0);
+    EXPECT_TRUE(voronoi::crossings(change.cloud).empty());
+  }
 }
 
 /// Where one side of a period asks for finer cells, the other gets them too.
