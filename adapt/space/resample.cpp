@@ -132,7 +132,8 @@ std::vector<Corners> sorted_facets(const Cloud<3>& cloud) {
   return list;
 }
 
-/// Where recovering has put other facets for those of the body, nodes of these give back the volume (m³).
+/// Where recovering has put other facets for those of the body, nodes of these give back the volume (m³), but
+/// for those that would run into something.
 void restore_volume(WorkingBody& body, const IndexedVector<CloudFacetIndex, Facet<3>>& facets, double gained,
                     const SpaceRules& rules) {
   const std::vector<Corners> before = sorted_facets(body.cloud());
@@ -143,13 +144,26 @@ void restore_volume(WorkingBody& body, const IndexedVector<CloudFacetIndex, Face
       owing.insert(owing.end(), corner.begin(), corner.end());
   std::sort(owing.begin(), owing.end());
   owing.erase(std::unique(owing.begin(), owing.end()), owing.end());
-  WorkingSurface surface(body.cloud(), body.node().held, rules.surface);
-  Field debt(body.size(), 0.0);
-  for (const NodeIndex i : owing) debt[index_of(i)] = -gained / static_cast<double>(owing.size());
-  give_back(surface, std::move(debt), body.node().size, rules.thresholds.surface.give_back);
-  const std::vector<CloudFacetIndex> moved = surface.changed_facets(body.cloud());
-  for (const NodeIndex i : body.nodes()) body.place(i, surface.at(i));
-  if (voronoi::crossings(body.cloud(), moved).empty()) body.set_sound(); // as faces of tetrahedra have been
+  IndexedVector<NodeIndex, char> still = body.node().held;
+  constexpr int times = 4;
+  for (int n = 0; n < times && !owing.empty(); ++n) {
+    WorkingSurface surface(body.cloud(), still, rules.surface);
+    Field debt(body.size(), 0.0);
+    for (const NodeIndex i : owing) debt[index_of(i)] = -gained / static_cast<double>(owing.size());
+    give_back(surface, std::move(debt), body.node().size, rules.thresholds.surface.give_back);
+    Cloud<3> given = body.cloud();
+    for (const NodeIndex i : body.nodes()) given.position[i] = surface.at(i);
+    const auto pairs = voronoi::crossings(given, surface.changed_facets(body.cloud()));
+    if (pairs.empty()) {
+      for (const NodeIndex i : body.nodes()) body.place(i, given.position[i]);
+      break;
+    }
+    for (const auto& pair : pairs)
+      for (const CloudFacetIndex f : pair)
+        for (const NodeIndex i : given.facets[f].node) still[i] = 1;
+    std::erase_if(owing, [&](NodeIndex i) { return still[i] && !body.node().held[i]; });
+  }
+  body.set_sound(); // as faces of tetrahedra are
 }
 
 } // namespace
