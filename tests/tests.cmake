@@ -24,12 +24,12 @@ function(cnem_tests folder)
   if(CNEM_UNITY)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 16)
     target_compile_options(${target} PRIVATE -Wno-shadow) # a name of another test file may be used for a local
-    if(TARGET test_unit_core AND NOT folder STREQUAL "unit/core")
-      target_precompile_headers(${target} REUSE_FROM test_unit_core)
-    else() # what most tests read first
+    if(folder STREQUAL "unit/core") # the first; what most tests read
       target_precompile_headers(${target} PRIVATE <Eigen/Dense> <Eigen/Sparse> <fmt/format.h> <gtest/gtest.h>
                                 <algorithm> <array> <cmath> <filesystem> <fstream> <functional> <map> <memory> <numbers>
                                 <optional> <random> <span> <string> <vector>)
+    else()
+      target_precompile_headers(${target} REUSE_FROM test_unit_core)
     endif()
   endif()
   if(folder MATCHES "^unit/")

@@ -270,6 +270,16 @@ void give_back(WorkingSurface& surface, Field debt, const Field& size, double mo
   }
 }
 
+WorkingSurface swollen_by(double volume, const Cloud<3>& cloud, std::span<const NodeIndex> giving,
+                          const IndexedVector<NodeIndex, char>& fixed, const Field& size,
+                          const SurfaceRules& rules, double most) {
+  Field debt(cloud.position.size(), 0.0);
+  for (const NodeIndex i : giving) debt[index_of(i)] = volume / static_cast<double>(giving.size());
+  WorkingSurface surface(cloud, fixed, rules);
+  give_back(surface, std::move(debt), size, most);
+  return surface;
+}
+
 RefinedSurface refine_surface(WorkingSurface& surface, Field& size, const Field& matter,
                               const SurfaceThresholds& limits, PassReport& report,
                               const PeriodImages& images) {

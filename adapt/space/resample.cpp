@@ -147,10 +147,8 @@ void restore_volume(WorkingBody& body, const IndexedVector<CloudFacetIndex, Face
   IndexedVector<NodeIndex, char> still = body.node().held;
   constexpr int times = 4;
   for (int n = 0; n < times && !owing.empty(); ++n) {
-    WorkingSurface surface(body.cloud(), still, rules.surface);
-    Field debt(body.size(), 0.0);
-    for (const NodeIndex i : owing) debt[index_of(i)] = -gained / static_cast<double>(owing.size());
-    give_back(surface, std::move(debt), body.node().size, rules.thresholds.surface.give_back);
+    const WorkingSurface surface = swollen_by(-gained, body.cloud(), owing, still, body.node().size,
+                                              rules.surface, rules.thresholds.surface.give_back);
     Cloud<3> given = body.cloud();
     for (const NodeIndex i : body.nodes()) given.position[i] = surface.at(i);
     const auto pairs = voronoi::crossings(given, surface.changed_facets(body.cloud()));

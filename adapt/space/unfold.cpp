@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <utility>
+#include <vector>
 
 namespace cnem::adapt {
 namespace {
@@ -296,20 +297,12 @@ private:
   IndexedVector<NodeIndex, char> within_seam_; ///< whether all facets of a node are of seams
 };
 
-/// The cloud with nodes moved so that it encloses `volume` (m³) more, as far as give_back() can.
-Cloud<3> swollen_by(double volume, const Cloud<3>& cloud, const IndexedVector<NodeIndex, char>& giving,
-                    const IndexedVector<NodeIndex, char>& fixed, const Field& size,
-                    const SurfaceRules& rules) {
-  double count = 0.0;
-  for (const NodeIndex i : giving.indices()) count += giving[i] && !fixed[i];
-  Field debt(cloud.position.size(), 0.0);
-  for (const NodeIndex i : giving.indices())
-    if (giving[i] && !fixed[i]) debt[index_of(i)] = volume / count;
-  WorkingSurface surface(cloud, fixed, rules);
-  give_back(surface, std::move(debt), size, SurfaceThresholds{}.give_back);
-  Cloud<3> swollen = cloud;
-  for (const NodeIndex i : cloud.position.indices()) swollen.position[i] = surface.at(i);
-  return swollen;
+std::vector<NodeIndex> giving(const IndexedVector<NodeIndex, char>& owing,
+                              const IndexedVector<NodeIndex, char>& fixed) {
+  std::vector<NodeIndex> list;
+  for (const NodeIndex i : owing.indices())
+    if (owing[i] && !fixed[i]) list.push_back(i);
+  return list;
 }
 
 } // namespace
@@ -329,7 +322,10 @@ void unfold(Cloud<3>& cloud, const IndexedVector<NodeIndex, char>& held, const F
   constexpr int times = 24;
   for (int n = 0; n < times && std::abs(owed) > enough; ++n) {
     for (const auto* fixed : {&held, &std::as_const(still)}) {
-      Cloud<3> swollen = swollen_by(owed, cloud, owing, *fixed, size, rules);
+      const WorkingSurface surface =
+          swollen_by(owed, cloud, giving(owing, *fixed), *fixed, size, rules, SurfaceThresholds{}.give_back);
+      Cloud<3> swollen = cloud;
+      for (const NodeIndex i : cloud.position.indices()) swollen.position[i] = surface.at(i);
       const auto pairs = voronoi::crossings(swollen);
       if (pairs.size() <= crossed) {
         cloud = std::move(swollen);
