@@ -17,7 +17,7 @@ struct PassReport {
   int promoted = 0; ///< interior nodes that became part of the boundary
   int inserted = 0, inserted_boundary = 0;
   int flipped = 0;          ///< edges of a surface in space that became the other diagonal
-  int straightened = 0;     ///< nodes of periodic sides that lay flat below the skin, and of their borders
+  int recut = 0;            ///< tetrahedra below the skin that went over from one periodic side to the other
   int balanced = 0;         ///< exchanges of mass between neighbours
   int undone = 0;           ///< rounds given up because the cloud had no valid structure after them
   int crossings = 0;        ///< pairs of facets in space that crossed when the pass began
@@ -25,7 +25,7 @@ struct PassReport {
   double volume_change = 0; ///< of the domain: m³ per metre of thickness, or of the body
   bool changed() const {
     return opened + crumbs + folded + outside + removed + removed_boundary + promoted + inserted +
-               inserted_boundary + flipped + straightened + balanced >
+               inserted_boundary + flipped + recut + balanced >
            0;
   }
   PassReport& operator+=(const PassReport& other);

@@ -34,7 +34,7 @@ constexpr std::pair<const char*, int Report::*> counts[] = {
     {"folded", &Report::folded},       {"outside", &Report::outside},
     {"removed", &Report::removed},     {"removed_boundary", &Report::removed_boundary},
     {"inserted", &Report::inserted},   {"inserted_boundary", &Report::inserted_boundary},
-    {"flipped", &Report::flipped},     {"straightened", &Report::straightened},
+    {"flipped", &Report::flipped},     {"recut", &Report::recut},
     {"balanced", &Report::balanced},   {"undone", &Report::undone},
     {"crossings", &Report::crossings}, {"side_crossings", &Report::side_crossings}};
 

@@ -29,7 +29,7 @@ std::vector<std::string> columns(const HistoryUnits& units, int dimensions) {
                                  "inserted_boundary",
                                  "balanced",
                                  "undone"};
-  if (dimensions == 3) names.insert(names.end(), {"flipped", "straightened", "crossings", "side_crossings"});
+  if (dimensions == 3) names.insert(names.end(), {"flipped", "recut", "crossings", "side_crossings"});
   std::vector<std::string> sums{"nodes", units.enclosed + units.measure, "mass" + units.mass};
   for (int k = 0; k < dimensions; ++k) sums.push_back(fmt::format("momentum_{}{}", axes[k], units.momentum));
   for (int k = 0; k < (dimensions == 2 ? 1 : 3); ++k)
@@ -97,7 +97,7 @@ void AdaptationLog::record(const State<dim>& state, const adapt::PassReport& rep
                           report.inserted, report.inserted_boundary, report.balanced, report.undone})
     row.push_back(count);
   if constexpr (dim == 3)
-    row.insert(row.end(), {1.0 * report.flipped, 1.0 * report.straightened, 1.0 * report.crossings,
+    row.insert(row.end(), {1.0 * report.flipped, 1.0 * report.recut, 1.0 * report.crossings,
                            1.0 * report.side_crossings});
   const auto add = [&](double was, double is) { row.insert(row.end(), {was, is}); };
   add(before.nodes, after.nodes);

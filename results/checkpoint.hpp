@@ -11,7 +11,7 @@
 namespace cnem::results {
 
 /// Raised by every change of what is written or how; files of another format are refused.
-inline constexpr int checkpoint_format = 32;
+inline constexpr int checkpoint_format = 33;
 
 /// Whose checkpoint it is; kept under "info/".
 struct CheckpointInfo {

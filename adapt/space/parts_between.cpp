@@ -1,12 +1,10 @@
 // The least surface through broken matter.
+#include "adapt/space/least_cut.hpp"
 #include "adapt/space/separate.hpp"
 #include "core/geometry/facets.hpp"
 #include "core/index.hpp"
 
 #include <algorithm>
-#include <boost/graph/boykov_kolmogorov_max_flow.hpp>
-#include <boost/graph/compressed_sparse_row_graph.hpp>
-#include <boost/range/iterator_range.hpp>
 #include <numeric>
 #include <span>
 
@@ -39,46 +37,6 @@ struct Passage {
   std::int32_t from, to;
   double weight;
 };
-
-/// [vertex] whether it is on the side of the source. Edges stand in pairs, there and back.
-std::vector<char> side_of_least_cut(std::size_t vertices,
-                                    const std::vector<std::pair<std::size_t, std::size_t>>& ends,
-                                    const std::vector<double>& capacity, std::size_t source,
-                                    std::size_t sink) {
-  using Graph = boost::compressed_sparse_row_graph<boost::directedS, boost::no_property, boost::no_property,
-                                                   boost::no_property, std::size_t, std::size_t>;
-  std::vector<std::size_t> order(ends.size()), place(ends.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return ends[a].first < ends[b].first; });
-  for (std::size_t e = 0; e < order.size(); ++e) place[order[e]] = e;
-  std::vector<std::pair<std::size_t, std::size_t>> sorted;
-  std::vector<double> sorted_capacity;
-  for (const std::size_t e : order) {
-    sorted.push_back(ends[e]);
-    sorted_capacity.push_back(capacity[e]);
-  }
-  const Graph graph(boost::edges_are_sorted, sorted.begin(), sorted.end(), vertices);
-  std::vector<boost::graph_traits<Graph>::edge_descriptor> edge(sorted.size()), reverse(sorted.size());
-  for (const auto e : boost::make_iterator_range(boost::edges(graph)))
-    edge[boost::get(boost::edge_index, graph, e)] = e;
-  for (std::size_t e = 0; e < order.size(); ++e) reverse[e] = edge[place[order[e] ^ 1]];
-  std::vector<double> residual(sorted.size()), distance(vertices, 0.0);
-  std::vector<boost::graph_traits<Graph>::edge_descriptor> predecessor(vertices);
-  std::vector<boost::default_color_type> colour(vertices);
-  const auto of_edge = boost::get(boost::edge_index, graph);
-  const auto of_vertex = boost::get(boost::vertex_index, graph);
-  boost::boykov_kolmogorov_max_flow(
-      graph, boost::make_iterator_property_map(sorted_capacity.begin(), of_edge),
-      boost::make_iterator_property_map(residual.begin(), of_edge),
-      boost::make_iterator_property_map(reverse.begin(), of_edge),
-      boost::make_iterator_property_map(predecessor.begin(), of_vertex),
-      boost::make_iterator_property_map(colour.begin(), of_vertex),
-      boost::make_iterator_property_map(distance.begin(), of_vertex), of_vertex, source, sink);
-  std::vector<char> with_source(vertices);
-  for (std::size_t v = 0; v < vertices; ++v) with_source[v] = colour[v] == colour[source];
-  return with_source;
-}
 
 class Cut {
 public:
@@ -175,17 +133,14 @@ private:
     std::iota(vertex.begin(), vertex.end(), std::size_t{0});
     for (const std::int32_t other : seeds)
       if (other != seeds[s]) vertex[index_of(other)] = blocks_;
-    std::vector<std::pair<std::size_t, std::size_t>> ends; // each passage there and back
-    std::vector<double> weights;
+    std::vector<GraphEdge> links;
     for (const Passage& passage : passages_) {
       if (part_of_block_[index_of(passage.from)] != 0 || part_of_block_[index_of(passage.to)] != 0) continue;
       const std::size_t a = vertex[index_of(passage.from)], b = vertex[index_of(passage.to)];
       if (a == b) continue;
-      ends.insert(ends.end(), {{a, b}, {b, a}});
-      weights.insert(weights.end(), {passage.weight, passage.weight});
+      links.push_back({a, b, passage.weight});
     }
-    const std::vector<char> with_source =
-        side_of_least_cut(blocks_ + 1, ends, weights, index_of(seeds[s]), blocks_);
+    const std::vector<char> with_source = side_of_least_cut(blocks_ + 1, links, index_of(seeds[s]), blocks_);
     for (std::size_t b = 0; b < blocks_; ++b)
       if (part_of_block_[b] == 0 && component_[b] == component_[index_of(seeds[s])] &&
           with_source[vertex[b]] != 0)

@@ -173,7 +173,8 @@ private:
     for (const Candidate& c : list) collapse(c.start, c.end);
   }
 
-  /// Nodes with next to no matter: they stand on a facet of nodes around them, whose tetrahedra are theirs.
+  /// Nodes with next to no matter: they stand on a facet of nodes around them, whose tetrahedra are theirs,
+  /// or are the flat top of one tetrahedron.
   void collapse_light() {
     std::vector<Candidate> list;
     for (std::size_t i = 0; i < old_nodes_; ++i) {
@@ -183,7 +184,7 @@ private:
     }
     std::sort(list.begin(), list.end());
     for (const Candidate& light : list)
-      if (surface_.holds_little(light.start, size_[index_of(light.start)])) collapse_tip(light.start);
+      if (surface_.on_surface(light.start)) collapse_some_way(light.start, Collapse::of_light);
   }
 
   /// Ends of whiskers and corners of films, one after the other: each goes into the nearest of the nodes
@@ -192,17 +193,18 @@ private:
     for (bool any = true; any;) {
       any = false;
       for (const NodeIndex i : IndexRange<NodeIndex>(surface_.nodes())) {
-        if (surface_.is_tip(i, size_[index_of(i)])) any = collapse_tip(i) || any;
+        if (surface_.is_tip(i, size_[index_of(i)])) any = collapse_some_way(i, Collapse::of_tip) || any;
       }
     }
   }
 
-  bool collapse_tip(NodeIndex i) {
+  /// Into the nearest of the nodes beside it that it can go into.
+  bool collapse_some_way(NodeIndex i, Collapse kind) {
     std::vector<Candidate> ways;
     surface_.around(i, [&](Edge e) { ways.push_back({surface_.length(e), i, surface_.end(e)}); });
     std::sort(ways.begin(), ways.end());
     return std::any_of(ways.begin(), ways.end(), [&](const Candidate& way) {
-      return collapse(surface_.between(i, way.end), size_[index_of(i)], Collapse::of_tip);
+      return collapse(surface_.between(i, way.end), size_[index_of(i)], kind);
     });
   }
 

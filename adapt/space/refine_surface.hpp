@@ -18,7 +18,7 @@ struct SurfaceThresholds {
   double split_edge = 1.5;  ///< longer edges are split
   double short_edge = 0.45; ///< shorter ones collapsed
   double low_height = 0.3;  ///< nodes nearer to a crease go into one of its nodes
-  double light = 0.005;     ///< nodes with less matter (in h³) that hold no more of the shape go
+  double light = 0.01;      ///< nodes with less matter (in h³) that hold next to nothing of the shape go
   double give_back = 0.1;   ///< how far a node moves at most to give back volume
   int rounds = 3;
 };

@@ -257,9 +257,9 @@ void endow(WorkingBody& body, const SpaceStructure& structure) {
 namespace {
 
 /// A pass whose surface has this spacing (m, [node]). sound: whether that of the cloud is known not to cross
-/// itself.
+/// itself. recut: whether sides of periods are (recut_sides()).
 Resampling<3> attempt(const Cloud<3>& cloud, NodeProperties properties, const Field& size,
-                      const SpaceRules& rules, bool sound, PassReport& report) {
+                      const SpaceRules& rules, bool sound, bool recut, PassReport& report) {
   const SpaceThresholds& limits = rules.thresholds;
   UncrossedSurface first = refine_uncrossed(cloud, properties, size, rules, sound);
   report += first.report;
@@ -280,6 +280,8 @@ Resampling<3> attempt(const Cloud<3>& cloud, NodeProperties properties, const Fi
   SpaceStructure structure;
   remove(body, structure, list, rules, report);
   if (const int cuts = report.cuts; separate(body, structure, rules.separation, report), report.cuts > cuts)
+    remove(body, structure, crowded(body, {}, limits, report), rules, report);
+  if (recut && recut_sides(body, structure, rules, report))
     remove(body, structure, crowded(body, {}, limits, report), rules, report);
   for (int round = 0; round < limits.rounds; ++round)
     if (!fill(body, structure, rules, report)) break;
@@ -331,15 +333,11 @@ Resampling<3> resample(const Cloud<3>& present, NodeProperties properties, const
   constexpr int times = 2;
   constexpr double shorter = 0.7, beside = 1.5;
   Field size = properties.size;
-  Cloud<3> straightened = cloud;
-  const int turned = straighten_seams(straightened, images, properties.held, properties.size, rules.surface);
-  bool upright = turned > 0; // but where the boundary cannot be recovered then
+  bool recut = !rules.periods.empty(); // but where the boundary cannot be recovered then
   for (int n = 1;;) {
     PassReport tried = report;
-    if (upright) tried.straightened += turned;
     try {
-      Resampling<3> change =
-          attempt(upright ? straightened : cloud, properties, size, rules, pairs.empty(), tried);
+      Resampling<3> change = attempt(cloud, properties, size, rules, pairs.empty(), recut, tried);
       change.old_position = present.position;
       report = tried;
       report.volume_change += enclosed_measure(change.cloud) - enclosed_measure(present);
@@ -347,7 +345,7 @@ Resampling<3> resample(const Cloud<3>& present, NodeProperties properties, const
     } catch (const NotRecovered& failure) {
       if (n == times) throw GeometryError(failure.message);
       ++report.undone;
-      if (std::exchange(upright, false)) continue;
+      if (tried.recut > report.recut && std::exchange(recut, false)) continue;
       ++n;
       for (const NodeIndex i : cloud.position.indices()) {
         double& h = size[index_of(i)];

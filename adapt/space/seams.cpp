@@ -1,6 +1,5 @@
+#include "adapt/space/least_cut.hpp"
 #include "adapt/space/seams.hpp"
-
-#include "core/geometry/cell_complex.hpp"
 #include "core/geometry/facets.hpp"
 #include "core/index.hpp"
 #include "voronoi/space/crossings.hpp"
@@ -8,140 +7,162 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace cnem::adapt {
 namespace {
 
-class Straightening {
+using voronoi::face_of_tetrahedron;
+using Marks = IndexedVector<SimplexIndex, char>;
+
+/// Where one side of a period is cut anew.
+class NewCut {
 public:
-  Straightening(Cloud<3>& cloud, const PeriodImages& images, const IndexedVector<NodeIndex, char>& held,
-                const Field& size, const SurfaceRules& rules)
-      : cloud_(cloud), before_(cloud.position), rules_(rules), held_(held), size_(size),
-        groups_(images.groups()),
-        facets_(group_by_cell<CloudFacetIndex>(
-            cloud.position.size(), cloud.facets.size(),
-            [&](std::size_t f) { return cloud.facets[as<CloudFacetIndex>(f)].node; })),
-        way_(cloud.position.size(), Vec3::Zero()), group_of_(cloud.position.size(), none) {
-    for (std::size_t g = 0; g < groups_.size(); ++g)
-      for (const NodeIndex i : groups_[g]) group_of_[i] = g;
+  NewCut(const WorkingBody& body, const SpaceStructure& structure, const SpaceRules& rules, PieceIndex side)
+      : body_(body), mesh_(structure.mesh), structure_(structure), rules_(rules), side_(side),
+        on_side_(body.size(), 0), on_skin_(body.size(), 0), elsewhere_(body.node().held) {
+    for (const Facet<3>& facet : body.cloud().facets)
+      for (const NodeIndex i : facet.node) {
+        if (facet.piece == side)
+          on_side_[i] = 1;
+        else if (rules.surface.is_still(facet.piece))
+          elsewhere_[i] = 1;
+        else
+          on_skin_[i] = 1;
+      }
   }
 
-  /// The number of nodes that have moved.
-  int run() {
-    for (const std::vector<NodeIndex>& group : groups_)
-      if (group.size() == 2) // else it is on two periods
-        for (std::size_t a = 0; a < 2; ++a) consider(group[a], group[1 - a]);
-    if (!move_alike(cloud_, groups_, way_, held_)) return 0;
-    put_back_what_crosses();
-    int moved = 0;
-    for (const NodeIndex i : cloud_.position.indices()) moved += cloud_.position[i] != before_[i];
-    return moved;
+  /// What goes over; empty where the side is far from the skin or stays.
+  Marks beyond() const {
+    Marks free(mesh_.node.size(), 0);
+    bool any = false;
+    for (const SimplexIndex t : free.indices()) any |= free[t] = is_thin(t);
+    if (!any) return {};
+    constexpr int rings = 2;
+    for (int n = 0; n < rings; ++n) widen(free);
+    for (const SimplexIndex t : free.indices())
+      if (std::any_of(mesh_.node[t].begin(), mesh_.node[t].end(), [&](NodeIndex i) { return elsewhere_[i]; }))
+        free[t] = 0;
+    return cut(free);
   }
 
 private:
-  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+  Vec3 at(NodeIndex i) const { return body_.at(i); }
 
-  bool on_seam(CloudFacetIndex f) const { return rules_.is_still(cloud_.facets[f].piece); }
-  Vec3 normal(CloudFacetIndex f) const { return area_normal<3>(corners_of<3>(cloud_.facets[f], before_)); }
-
-  /// Sum of the area normals of the facets of a node, of sides or of the skin.
-  Vec3 normal_at(NodeIndex i, bool of_sides) const {
-    Vec3 sum = Vec3::Zero();
-    for (const CloudFacetIndex f : facets_.of(index_of(i)))
-      if (on_seam(f) == of_sides) sum += normal(f);
-    return sum;
-  }
-
-  std::vector<PieceIndex> skin_at(NodeIndex i, NodeIndex k = NodeIndex::none) const {
-    std::vector<PieceIndex> pieces;
-    for (const CloudFacetIndex f : facets_.of(index_of(i))) {
-      const auto& node = cloud_.facets[f].node;
-      if (!on_seam(f) && (!exists(k) || std::find(node.begin(), node.end(), k) != node.end()))
-        pieces.push_back(cloud_.facets[f].piece);
+  /// Whether a tetrahedron that reaches from the side to the skin is thinner than they should be apart.
+  bool is_thin(SimplexIndex t) const {
+    const auto& node = mesh_.node[t];
+    std::vector<NodeIndex> below, skin, border;
+    double h = 0.0;
+    for (const NodeIndex i : node) {
+      if (!on_side_[i] && !on_skin_[i]) return false;
+      (!on_skin_[i] ? below : on_side_[i] ? border : skin).push_back(i);
+      h += 0.25 * body_.spacing(i);
     }
-    std::sort(pieces.begin(), pieces.end());
-    pieces.erase(std::unique(pieces.begin(), pieces.end()), pieces.end());
-    return pieces;
+    if (below.empty() || skin.empty()) return false;
+    const double volume = volume_of(body_.cloud(), node);
+    constexpr double thin = 0.6; // h
+    const auto height = [&](NodeIndex top) { // 3 V over the face opposite
+      const std::size_t k = index_of(std::find(node.begin(), node.end(), top) - node.begin());
+      return 3.0 * volume / area(t, k);
+    };
+    if (below.size() == 1) return height(below[0]) < thin * h;
+    if (skin.size() == 1) return height(skin[0]) < thin * h;
+    const Vec3 across = (at(below[1]) - at(below[0])).cross(at(skin[1]) - at(skin[0]));
+    return 6.0 * volume < thin * h * across.norm();
   }
 
-  /// Ways of a node of the border, of its image and of nodes within the side beside it.
-  void consider(NodeIndex i, NodeIndex image) {
-    const Vec3 skin = normal_at(i, false) + normal_at(image, false), side = normal_at(i, true);
-    if (skin.isZero() || side.isZero()) return; // within the side, or flat
-    const Vec3 up = skin.normalized();
-    static const double least = std::cos(12.0 * std::numbers::pi / 180.0);
-    if (up.dot(side.normalized()) > -least) return;
-    constexpr double reach = 1.5, depth = 0.4, at_once = 0.2; // h
-    Vec3 over = Vec3::Zero();                                 // what is thin
-    for (const CloudFacetIndex f : facets_.of(index_of(i))) {
-      if (!on_seam(f)) continue;
-      for (const NodeIndex k : cloud_.facets[f].node) {
-        if (k == i || !skin_at(k).empty()) continue;
-        const Vec3 to = before_[k] - before_[i];
-        over += to;
-        const double h = size_[index_of(k)], lacking = depth * h + up.dot(to);
-        if (lacking > 0.0 && to.norm() < reach * h) propose(k, -std::min(lacking, at_once * h) * up);
+  double area(SimplexIndex t, std::size_t k) const {
+    std::array<Vec3, 3> x;
+    for (std::size_t c = 0; c < 3; ++c) x[c] = at(mesh_.node[t][face_of_tetrahedron[k][c]]);
+    return area_normal<3>(x).norm();
+  }
+
+  /// By what has a node in common.
+  void widen(Marks& marks) const {
+    IndexedVector<NodeIndex, char> near(body_.size(), 0);
+    for (const SimplexIndex t : marks.indices())
+      if (marks[t])
+        for (const NodeIndex i : mesh_.node[t]) near[i] = 1;
+    for (const NodeIndex i : body_.nodes())
+      if (near[i])
+        for (const SimplexIndex t : structure_.tetrahedra.of(i)) marks[t] = 1;
+  }
+
+  /// [node] how much nearer than half of the spacing it lies below the skin, over that; 0 on the skin.
+  Field shallowness() const {
+    Field list(body_.size(), 0.0);
+    for (const SimplexIndex t : mesh_.node.indices())
+      for (std::size_t k = 0; k < 4; ++k) {
+        const NodeIndex i = mesh_.node[t][k];
+        const CloudFacetIndex f = mesh_.facet[t][k];
+        if (on_skin_[i] || !exists(f) || rules_.surface.is_still(body_.cloud().facets[f].piece)) continue;
+        const double depth = 3.0 * volume_of(body_.cloud(), mesh_.node[t]) / area(t, k);
+        list[index_of(i)] = std::max(list[index_of(i)], 1.0 - depth / (0.5 * body_.spacing(i)));
       }
-    }
-    over -= up.dot(over) * up;
-    if (!over.isZero()) go_along_skin(i, over.normalized());
+    return list;
   }
 
-  void go_along_skin(NodeIndex i, const Vec3& over) {
-    const std::vector<PieceIndex> pieces = skin_at(i);
-    NodeIndex to = NodeIndex::none;
-    double best = 0.5; // cosine
-    for (const CloudFacetIndex f : facets_.of(index_of(i))) {
-      if (on_seam(f)) continue;
-      for (const NodeIndex k : cloud_.facets[f].node) {
-        if (k == i || group_of_[k] != none) continue;
-        const double along = over.dot((before_[k] - before_[i]).normalized());
-        if (along > best && skin_at(i, k) == pieces) {
-          best = along;
-          to = k;
+  /// Those beyond the least cut through tetrahedra that are free to go. Nodes just below the skin weigh, as a
+  /// side should not end in slivers, and the side where it is weighs less, as it should not wander.
+  Marks cut(const Marks& free) const {
+    constexpr double keeps = 0.75, of_shallow = 4.0;
+    IndexedVector<SimplexIndex, std::size_t> vertex(free.size(), 0);
+    std::size_t vertices = 0;
+    for (const SimplexIndex t : free.indices())
+      if (free[t]) vertex[t] = vertices++;
+    const std::size_t stays = vertices++, goes = vertices++;
+    const Field shallow = shallowness();
+    const auto weight = [&](SimplexIndex t, std::size_t k) {
+      double sum = 1.0;
+      for (const std::size_t c : face_of_tetrahedron[k]) sum += of_shallow * shallow[index_of(mesh_.node[t][c])];
+      return area(t, k) * sum;
+    };
+    std::vector<GraphEdge> links;
+    for (const SimplexIndex t : free.indices()) {
+      if (!free[t]) continue;
+      for (std::size_t k = 0; k < 4; ++k) {
+        if (const SimplexIndex next = mesh_.neighbour[t][k]; exists(next)) {
+          if (!free[next])
+            links.push_back({stays, vertex[t], weight(t, k)});
+          else if (t < next)
+            links.push_back({vertex[t], vertex[next], weight(t, k)});
+        } else if (body_.cloud().facets[mesh_.facet[t][k]].piece == side_) {
+          links.push_back({vertex[t], goes, keeps * weight(t, k)});
         }
       }
     }
-    if (!exists(to)) return;
-    constexpr double at_once = 0.3, share = 0.4; // h, of the edge
-    const Vec3 edge = before_[to] - before_[i];
-    propose(i, std::min(share, at_once * size_[index_of(i)] / edge.norm()) * edge);
+    const std::vector<char> over = side_of_least_cut(vertices, links, goes, stays);
+    Marks beyond(free.size(), 0);
+    for (const SimplexIndex t : free.indices()) beyond[t] = free[t] && over[vertex[t]];
+    return beyond;
   }
 
-  void propose(NodeIndex i, const Vec3& way) {
-    if (groups_[group_of_[i]].size() == 2 && way.norm() > way_[i].norm()) way_[i] = way;
-  }
-
-  void put_back_what_crosses() {
-    for (bool any = true; any;) {
-      any = false;
-      for (const auto& pair : voronoi::crossings(cloud_))
-        for (const CloudFacetIndex f : pair)
-          for (const NodeIndex i : cloud_.facets[f].node) {
-            if (cloud_.position[i] == before_[i]) continue;
-            any = true;
-            for (const NodeIndex k : groups_[group_of_[i]]) cloud_.position[k] = before_[k];
-          }
-    }
-  }
-
-  Cloud<3>& cloud_;
-  const IndexedVector<NodeIndex, Vec3> before_;
-  const SurfaceRules& rules_;
-  const IndexedVector<NodeIndex, char>& held_;
-  const Field& size_;
-  std::vector<std::vector<NodeIndex>> groups_; ///< of images
-  CellLists<CloudFacetIndex> facets_;          ///< [node]
-  IndexedVector<NodeIndex, Vec3> way_;
-  IndexedVector<NodeIndex, std::size_t> group_of_;
+  const WorkingBody& body_;
+  const voronoi::Tetrahedra& mesh_;
+  const SpaceStructure& structure_;
+  const SpaceRules& rules_;
+  PieceIndex side_;
+  IndexedVector<NodeIndex, char> on_side_, on_skin_;
+  IndexedVector<NodeIndex, char> elsewhere_; ///< on other sides, or held
 };
 
 } // namespace
 
-int straighten_seams(Cloud<3>& cloud, const PeriodImages& images, const IndexedVector<NodeIndex, char>& held,
-                     const Field& size, const SurfaceRules& rules) {
-  return images.empty() ? 0 : Straightening(cloud, images, held, size, rules).run();
+bool recut_sides(WorkingBody& body, SpaceStructure& structure, const SpaceRules& rules, PassReport& report) {
+  WorkingBody recut = body;
+  SpaceStructure now = structure;
+  int over = 0;
+  for (const Period& period : rules.periods)
+    for (const PieceIndex side : period) {
+      const Marks beyond = NewCut(recut, now, rules, side).beyond();
+      if (!beyond.empty()) over += hand_over(recut, now, rules, beyond);
+    }
+  if (over == 0 || !voronoi::crossings(recut.cloud()).empty()) return false;
+  body = std::move(recut);
+  body.set_sound();
+  structure = std::move(now);
+  report.recut += over;
+  return true;
 }
 
 } // namespace cnem::adapt

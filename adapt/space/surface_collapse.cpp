@@ -17,8 +17,9 @@ Refusal WorkingSurface::may_collapse(Edge e, double spacing, Collapse kind) cons
   if (held(gone)) return Refusal::held;
   constexpr double one = 0.1; // h: folds so near to each other are one
   const bool folds_meet = length(e) < one * spacing && of_folds(gone);
-  if (kind == Collapse::of_tip) {
-    if (!holds_little(gone, spacing)) return Refusal::corner;
+  if (kind != Collapse::in_shape) {
+    if (!holds_less(gone, spacing, kind == Collapse::of_tip ? rules_.tip : rules_.volume))
+      return Refusal::corner;
   } else if (corner(gone)) {
     if (!folds_meet || !corner(stays)) return Refusal::corner;
   } else if (on_crease(gone) && !crease(e) && !(folds_meet && on_crease(stays))) {
@@ -42,15 +43,16 @@ double WorkingSurface::volume_towards(NodeIndex gone, NodeIndex stays) const {
 }
 
 bool WorkingSurface::is_tip(NodeIndex i, double spacing) const {
-  return on_surface(i) && corner(i) && holds_little(i, spacing);
+  return on_surface(i) && corner(i) && holds_less(i, spacing, rules_.tip);
 }
 
-bool WorkingSurface::holds_little(NodeIndex i, double spacing) const {
+bool WorkingSurface::holds_less(NodeIndex i, double spacing, double most) const {
   if (!on_surface(i) || held(i) || still(i) || !of_folds(i)) return false;
-  const double most = rules_.tip * spacing * spacing * spacing;
-  bool little = true;
-  around(i, [&](Edge e) { little = little && std::abs(volume_towards(i, end(e))) < most; });
-  return little;
+  bool less = true;
+  around(i, [&](Edge e) {
+    less = less && std::abs(volume_towards(i, end(e))) < most * spacing * spacing * spacing;
+  });
+  return less;
 }
 
 /// Whether what is left where a tip goes looks the way the tip did as a whole.
@@ -74,7 +76,7 @@ SurfaceChange WorkingSurface::try_collapse(Edge e, double spacing, Vec3& to, Col
   const NodeIndex gone = start(e), stays = end(e);
   const std::size_t f = index_of(e / 3), g = index_of(back / 3);
   const Vec3 from = at(stays);
-  if (kind == Collapse::of_tip) {
+  if (kind != Collapse::in_shape) {
     if (!may_cap(e)) return {Refusal::normals};
     to = from;
     return {Refusal::none, -volume_towards(gone, stays)};

@@ -36,6 +36,12 @@ public:
     hold(made, held(i));
     return made;
   }
+  /// A node without matter that lies to another as one image to the other.
+  NodeIndex insert_image(NodeIndex i, NodeIndex here, NodeIndex there) {
+    append({{i, 1.0}, {here, -1.0}, {there, 1.0}});
+    add(at(i) + (at(there) - at(here)), i);
+    return as<NodeIndex>(size() - 1);
+  }
   void place(NodeIndex i, const Vec3& x) {
     cloud_.position[i] = x;
     sound_ = false;

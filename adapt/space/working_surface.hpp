@@ -52,6 +52,7 @@ struct SurfaceChange {
 enum class Collapse {
   in_shape, ///< creases, corners and normals stay
   of_tip,   ///< the end of a whisker or the corner of a film, which hold next to nothing
+  of_light, ///< a node with next to no matter, that holds no more than a change of the shape may take
 };
 
 /// Half-edges in triples: edge 3f + k leaves node k of facet f (voronoi/space/surface.hpp). It is closed and
@@ -121,8 +122,6 @@ public:
   /// Whether a node is a corner of one piece that holds less than rules.tip whichever way it would go: the
   /// end of a whisker that has been drawn out, or a corner of a film. Collapse::of_tip takes it away.
   bool is_tip(NodeIndex i, double spacing) const;
-  /// The same of nodes that are no corners, which may have all of their cell behind them.
-  bool holds_little(NodeIndex i, double spacing) const;
   /// The edge becomes the other diagonal of its two facets.
   SurfaceChange flip(Edge e, double spacing);
   /// What flip() would do.
@@ -148,6 +147,8 @@ private:
   bool may_become(const Corners& before, const Corners& after) const;
   void keep_on_faces(NodeIndex i, Vec3& way) const;
   bool of_folds(NodeIndex i) const; ///< one piece is all round it
+  /// Whether it takes less than `most` h³ with it whichever way it goes.
+  bool holds_less(NodeIndex i, double spacing, double most) const;
   Refusal may_collapse(Edge e, double spacing, Collapse kind) const;
   double volume_towards(NodeIndex gone, NodeIndex stays) const;
   bool may_cap(Edge e) const;

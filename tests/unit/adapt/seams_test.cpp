@@ -1,7 +1,10 @@
-// Sides of a slice between periodic planes that the skin has dragged until they lie flat below it.
+// Sides of a slice between periodic planes that the skin has dragged until they lie flat below it are cut
+// anew: tetrahedra go over to the other side.
 #include "adapt/space/seams.hpp"
+#include "clouds/tetrahedral_block.hpp"
 #include "core/geometry/facets.hpp"
 #include "core/geometry/mates.hpp"
+#include "core/operators/parcels.hpp"
 #include "tests/space_clouds.hpp"
 #include "voronoi/space/crossings.hpp"
 
@@ -9,115 +12,183 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <functional>
+#include <numeric>
 
 namespace cnem::adapt {
 namespace {
 
-/// A cube, periodic along x, whose skin has gone by `lean` h along x, the layer `thick` h below it not.
-struct Dragged {
+using testing::piece_of;
+
+/// A cube of unit density, periodic along x, whose nodes have been moved.
+struct Slice {
   static constexpr int cells = 6;
   static constexpr double h = 1.0 / cells;
-  Cloud<3> cloud = testing::recovered({.shape = testing::SpaceShape::cube, .cells = cells}).cloud;
-  std::vector<Period> periods{{testing::piece_of(cloud, "x-"), testing::piece_of(cloud, "x+")}};
-  IndexedVector<NodeIndex, char> held = IndexedVector<NodeIndex, char>(cloud.position.size(), 0);
-  IndexedVector<NodeIndex, Vec3> before;
-  int straightened = 0;
+  clouds::TetrahedralBlock block;
+  SpaceRules rules;
+  SpaceStructure structure;
+  WorkingBody body;
+  Vec3 shift{1.0, 0.0, 0.0};
 
-  double top;
+  explicit Slice(const std::function<Vec3(const Vec3&)>& place = [](const Vec3& x) { return x; })
+      : block(clouds::tetrahedral_block({1, 1, 1}, {cells, cells, cells}, place)), rules(rules_of(block.cloud)),
+        structure(structure_of(block.cloud, voronoi::connected(block.cloud, block.tetrahedra))),
+        body(block.cloud, properties()) {}
 
-  explicit Dragged(double lean, double thick = 1.0) : top(1.0 - h + thick * h) {
-    repeat_facets(cloud, periods);
-    for (Vec3& x : cloud.position)
-      if (x.z() > 1.0 - 1e-9) x = {x.x() + lean * h, x.y(), top};
-    before = cloud.position;
+  static SpaceRules rules_of(const Cloud<3>& cloud) {
+    SpaceRules rules;
+    rules.periods.push_back({piece_of(cloud, "x-"), piece_of(cloud, "x+")});
+    rules.surface.still.assign(rules.periods[0].begin(), rules.periods[0].end());
+    return rules;
   }
-  void straighten() {
-    SurfaceRules rules;
-    for (const Period& period : periods) rules.still.insert(rules.still.end(), period.begin(), period.end());
-    straightened +=
-        straighten_seams(cloud, PeriodImages(cloud, periods), held, Field(cloud.position.size(), h), rules);
+  NodeProperties properties() const {
+    const std::size_t n = block.cloud.position.size();
+    return {.mass = structure.cell,
+            .jacobian = Field(n, 1.0),
+            .density = Field(n, 1.0),
+            .size = Field(n, h),
+            .held = IndexedVector<NodeIndex, char>(n, 0),
+            .broken = {}};
   }
-  bool is_border(NodeIndex i) const { return before[i].z() > top - 1e-9; }
-
-  /// Least angle between the top and a facet of a side with two nodes in the top, not at its ends, degrees.
-  double least_angle() const {
-    double least = 180.0;
-    for (const auto& facet : cloud.facets) {
-      if (facet.piece != periods[0][0] && facet.piece != periods[0][1]) continue;
-      const auto inside = [&](NodeIndex i) { return std::abs(before[i].y() - 0.5) < 0.5 - 1e-9; };
-      if (std::count_if(facet.node.begin(), facet.node.end(), [&](NodeIndex i) { return is_border(i); }) !=
-              2 ||
-          !std::all_of(facet.node.begin(), facet.node.end(), inside))
-        continue;
-      const Vec3 n = area_normal<3>(corners_of<3>(facet, cloud.position)).normalized();
-      least = std::min(least, (180.0 - std::acos(n.z()) * 180.0 / std::numbers::pi));
+  void hold() { // all nodes
+    NodeProperties p = properties();
+    std::fill(p.held.begin(), p.held.end(), 1);
+    body = WorkingBody(block.cloud, std::move(p));
+  }
+  double side_area() const {
+    double sum = 0.0;
+    for (const Facet<3>& facet : body.cloud().facets)
+      if (rules.surface.is_still(facet.piece))
+        sum += 0.5 * area_normal<3>(corners_of<3>(facet, body.cloud().position)).norm();
+    return sum;
+  }
+  IndexedVector<SimplexIndex, char> marks(const std::function<bool(const Vec3&)>& inside) const {
+    IndexedVector<SimplexIndex, char> list;
+    for (const auto& node : structure.mesh.node) {
+      Vec3 centre = Vec3::Zero();
+      for (const NodeIndex i : node) centre += 0.25 * body.at(i);
+      list.push_back(inside(centre));
     }
-    return least;
+    return list;
+  }
+
+  /// What holds whatever has gone over.
+  void expect_whole() const {
+    const Cloud<3>& cloud = body.cloud();
+    EXPECT_NEAR(enclosed_measure(cloud), enclosed_measure(block.cloud), 1e-13);
+    EXPECT_TRUE(voronoi::crossings(cloud).empty());
+    for (const auto& [a, b] : shifted_nodes(cloud, rules.periods[0]))
+      EXPECT_LT((cloud.position[b] - cloud.position[a] - shift).norm(), 1e-13);
+    // matter goes with the volume that it fills
+    for (const NodeIndex i : body.nodes())
+      EXPECT_NEAR(body.node().filled(i), structure.volume(i), 1e-13 * h);
+    // and initial positions are labels: those of nodes that are made lie a period on
+    const Resampling<3> change = body.finish(structure);
+    for (Eigen::Index c = 0; c < 3; ++c) {
+      Field label;
+      for (const Vec3& x : block.cloud.position) label.push_back(x[c]);
+      carry_label(change.labels, label);
+      for (const NodeIndex p : change.cloud.position.indices())
+        EXPECT_NEAR(label[index_of(p)], change.cloud.position[p][c], 1e-13);
+    }
   }
 };
 
-TEST(Seams, rise_from_below_the_skin) {
-  constexpr double h = Dragged::h;
-  Dragged body(1.2, 0.2);
-  const double angle = body.least_angle();
-  ASSERT_LT(angle, 10.0);
-  const double volume = enclosed_measure(body.cloud);
-  for (int pass = 0; pass < 4; ++pass) body.straighten();
-  EXPECT_GT(body.least_angle(), 20.0); // after one of them
-  EXPECT_NEAR(enclosed_measure(body.cloud), volume, 1e-14);
-  EXPECT_TRUE(voronoi::crossings(body.cloud).empty());
-  IndexedVector<NodeIndex, char> on_seam(body.cloud.position.size(), 0);
-  int borders = 0;
-  for (const auto& [a, b] : shifted_nodes(body.cloud, body.periods[0])) {
-    on_seam[a] = on_seam[b] = 1;
-    const Vec3 way = body.cloud.position[a] - body.before[a];
-    EXPECT_LT((way - (body.cloud.position[b] - body.before[b])).norm(), 1e-15);
-    if (body.is_border(a)) {
-      EXPECT_NEAR(way.z(), 0.0, 1e-15); // it stays in the skin
-      borders += way.x() < -0.2 * h;    // back over what is thin, along an edge or a diagonal
-    } else {
-      EXPECT_LE(way.z(), 0.0);
+// All of the layer at one end goes to the other, one tetrahedron after the other.
+TEST(Seams, a_layer_goes_over) {
+  for (const double end : {1.0, 0.0}) {
+    Slice slice;
+    const auto layer = slice.marks([&](const Vec3& x) { return std::abs(x.x() - end) < Slice::h; });
+    EXPECT_EQ(hand_over(slice.body, slice.structure, slice.rules, layer), 6 * Slice::cells * Slice::cells);
+    slice.expect_whole();
+    EXPECT_EQ(slice.body.size(), slice.block.cloud.position.size());
+    const double by = end == 1.0 ? -Slice::h : Slice::h;
+    for (const Vec3& x : slice.body.cloud().position) {
+      EXPECT_GT(x.x(), by - 1e-12);
+      EXPECT_LT(x.x(), 1.0 + by + 1e-12);
     }
   }
-  EXPECT_GE(borders, Dragged::cells - 1); // but for the ends, where the top meets other faces
-  for (const NodeIndex i : body.cloud.position.indices())
-    if (!on_seam[i]) { EXPECT_EQ(body.cloud.position[i], body.before[i]); }
-  EXPECT_GT(body.straightened, 0);
 }
 
-TEST(Seams, that_stand_at_more_than_twelve_degrees_stay) {
-  Dragged body(4.0); // 14 degrees, as sides of what is sheared to 4
-  body.straighten();
-  EXPECT_EQ(body.straightened, 0);
-  EXPECT_EQ(body.cloud.position, body.before);
+TEST(Seams, single_tetrahedra_go_over_where_the_boundary_stays_a_manifold) {
+  int gone = 0, stayed = 0;
+  const Slice whole;
+  for (const SimplexIndex t : whole.structure.mesh.node.indices()) {
+    if (whole.body.at(whole.structure.mesh.node[t][0]).x() < 0.5) continue;
+    Slice slice;
+    IndexedVector<SimplexIndex, char> one(slice.structure.mesh.node.size(), 0);
+    one[t] = 1;
+    const bool goes = hand_over(slice.body, slice.structure, slice.rules, one) == 1;
+    (goes ? gone : stayed) += 1;
+    if (goes) slice.expect_whole();
+  }
+  EXPECT_GT(gone, 50);
+  EXPECT_GT(stayed, 50); // inner ones, and those with a corner on another face
+}
+
+/// The skin has gone by `lean` h along x, the layer `thick` h below it not; the body turned about z or not.
+std::function<Vec3(const Vec3&)> dragged(double lean, double thick, double turn = 1.0) {
+  return [=](const Vec3& x) {
+    const bool skin = x.z() > 1.0 - 1e-9;
+    return Vec3(turn * (skin ? x.x() + lean * Slice::h : x.x()), turn * x.y(),
+                skin ? 1.0 - (1.0 - thick) * Slice::h : x.z());
+  };
+}
+
+TEST(Seams, below_the_skin_are_cut_anew) {
+  for (const double turn : {1.0, -1.0}) { // below one side and below the other
+    Slice slice(dragged(-1.2, 0.3, turn));
+    slice.shift *= turn;
+    const double before = slice.side_area();
+    PassReport report;
+    EXPECT_TRUE(recut_sides(slice.body, slice.structure, slice.rules, report));
+    slice.expect_whole();
+    EXPECT_GE(report.recut, 2 * Slice::cells); // a row of prisms at least
+    // what lies flat, of 1.24 h × 1 on either side, is 0.3 h deep now
+    EXPECT_LT(slice.side_area(), before - 2.0 * (1.0 - 2.0 * Slice::h) * 0.5 * Slice::h);
+    EXPECT_FALSE(recut_sides(slice.body, slice.structure, slice.rules, report)); // it is the least
+  }
+}
+
+TEST(Seams, that_stand_upright_stay) {
+  for (const double lean : {0.0, 0.5}) {
+    Slice slice(dragged(lean, 1.0));
+    PassReport report;
+    EXPECT_FALSE(recut_sides(slice.body, slice.structure, slice.rules, report));
+    EXPECT_EQ(report.recut, 0);
+    EXPECT_EQ(slice.body.cloud().position, slice.block.cloud.position);
+  }
 }
 
 TEST(Seams, that_are_held_stay) {
-  Dragged body(6.0);
-  std::fill(body.held.begin(), body.held.end(), 1);
-  body.straighten();
-  EXPECT_EQ(body.straightened, 0);
+  Slice slice(dragged(-1.2, 0.3));
+  slice.hold();
+  PassReport report;
+  EXPECT_FALSE(recut_sides(slice.body, slice.structure, slice.rules, report));
 }
 
-// The bottom has a spike that ends just below the side: what would go into it stays, with its image.
+// Debris lies where the metal of the other side would come to.
 TEST(Seams, do_not_cross_anything) {
-  constexpr double h = Dragged::h;
-  Dragged body(1.2, 0.2);
-  const Vec3 foot(h, 0.5, 0.0), tip(0.3 * h, 0.5, 1.0 - 0.97 * h), above(0.0, 0.5, 1.0 - h);
-  for (Vec3& x : body.cloud.position)
-    if ((x - foot).norm() < 1e-9) x = tip;
-  body.before = body.cloud.position;
-  ASSERT_TRUE(voronoi::crossings(body.cloud).empty());
-  body.straighten();
-  EXPECT_TRUE(voronoi::crossings(body.cloud).empty());
-  EXPECT_GT(body.straightened, 0);
-  for (const auto& [a, b] : shifted_nodes(body.cloud, body.periods[0]))
-    for (const auto& [i, k] : {std::pair{a, b}, {b, a}})
-      if ((body.before[i] - above).norm() < 1e-9) {
-        EXPECT_EQ(body.cloud.position[i], body.before[i]);
-        EXPECT_EQ(body.cloud.position[k], body.before[k]);
-      }
+  Slice slice(dragged(-1.2, 0.3));
+  Cloud<3> cloud = slice.block.cloud;
+  const auto& mesh = slice.structure.mesh.node;
+  std::vector<std::array<NodeIndex, 4>> tetrahedra(mesh.begin(), mesh.end());
+  std::array<NodeIndex, 4> debris;
+  const Vec3 corner(1.0 - 0.2 * Slice::h, 0.45, 1.0 - 0.85 * Slice::h);
+  for (std::size_t k = 0; k < 4; ++k) {
+    debris[k] = cloud.position.next();
+    cloud.position.push_back(corner + 0.1 * Slice::h * (k == 0 ? Vec3::Zero() : Vec3(Vec3::Unit(static_cast<int>(k) - 1))));
+  }
+  tetrahedra.push_back(debris);
+  for (const auto& face : voronoi::face_of_tetrahedron)
+    cloud.facets.push_back({{debris[face[0]], debris[face[1]], debris[face[2]]}, piece_of(cloud, "z-")});
+  ASSERT_TRUE(voronoi::crossings(cloud).empty());
+  slice.block.cloud = cloud;
+  slice.structure = structure_of(cloud, voronoi::connected(cloud, tetrahedra));
+  slice.body = WorkingBody(cloud, slice.properties());
+  PassReport report;
+  EXPECT_FALSE(recut_sides(slice.body, slice.structure, slice.rules, report));
+  EXPECT_EQ(slice.body.cloud().position, cloud.position);
 }
 
 } // namespace
