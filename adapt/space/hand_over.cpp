@@ -1,10 +1,10 @@
+// Tetrahedra that go from one side of a period to the other.
 #include "adapt/space/seams.hpp"
-
 #include "core/index.hpp"
 
 #include <algorithm>
 #include <array>
-#include <span>
+#include <iterator>
 #include <utility>
 
 namespace cnem::adapt {
@@ -22,7 +22,7 @@ Corners sorted(Corners corner) {
 /// A tetrahedron on its way, and where it goes.
 struct Move {
   SimplexIndex tetrahedron;
-  std::array<NodeIndex, 4> image{};   ///< of its corners on the other side; none: made
+  std::array<NodeIndex, 4> image{};    ///< of its corners on the other side; none: made
   NodeIndex emptied = NodeIndex::none; ///< the corner that has no other tetrahedron
   std::vector<CloudFacetIndex> shut{}; ///< of one side and of the other, which come to lie within the body
 };

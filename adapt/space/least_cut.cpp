@@ -9,8 +9,8 @@
 
 namespace cnem::adapt {
 
-std::vector<char> side_of_least_cut(std::size_t vertices, const std::vector<GraphEdge>& links, std::size_t source,
-                                    std::size_t sink) {
+std::vector<char> side_of_least_cut(std::size_t vertices, const std::vector<GraphEdge>& links,
+                                    std::size_t source, std::size_t sink) {
   const auto ends_of = [&](std::size_t e) { // each link there and back
     const GraphEdge& link = links[e / 2];
     return e % 2 == 0 ? std::pair(link.from, link.to) : std::pair(link.to, link.from);

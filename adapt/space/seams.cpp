@@ -1,5 +1,5 @@
-#include "adapt/space/least_cut.hpp"
 #include "adapt/space/seams.hpp"
+#include "adapt/space/least_cut.hpp"
 #include "core/geometry/facets.hpp"
 #include "core/index.hpp"
 #include "voronoi/space/crossings.hpp"
@@ -60,7 +60,7 @@ private:
     }
     if (below.empty() || skin.empty()) return false;
     const double volume = volume_of(body_.cloud(), node);
-    constexpr double thin = 0.6; // h
+    constexpr double thin = 0.6;             // h
     const auto height = [&](NodeIndex top) { // 3 V over the face opposite
       const std::size_t k = index_of(std::find(node.begin(), node.end(), top) - node.begin());
       return 3.0 * volume / area(t, k);
@@ -114,7 +114,8 @@ private:
     const Field shallow = shallowness();
     const auto weight = [&](SimplexIndex t, std::size_t k) {
       double sum = 1.0;
-      for (const std::size_t c : face_of_tetrahedron[k]) sum += of_shallow * shallow[index_of(mesh_.node[t][c])];
+      for (const std::size_t c : face_of_tetrahedron[k])
+        sum += of_shallow * shallow[index_of(mesh_.node[t][c])];
       return area(t, k) * sum;
     };
     std::vector<GraphEdge> links;

@@ -12,8 +12,8 @@ namespace cnem::adapt {
 /// skin. Nodes less than half of the spacing below the skin count up to five times. What lies between the old
 /// side and the new goes over to the other side (hand_over()). Nodes on two periods, and those that are held,
 /// stay, and where the new surface would cross something all does. Whether anything went over: the structure
-/// has the same tetrahedra then, which need not be those of the cloud's triangulation. O(N log N) where a side
-/// is near the skin. Throws GeometryError as shifted_nodes().
+/// has the same tetrahedra then, which need not be those of the cloud's triangulation. O(N log N) where a
+/// side is near the skin. Throws GeometryError as shifted_nodes().
 bool recut_sides(WorkingBody& body, SpaceStructure& structure, const SpaceRules& rules, PassReport& report);
 
 /// Moves tetrahedra from one side of a period to the other, where they lie on what they lay on before, with a

@@ -153,6 +153,34 @@ TEST(RefineSurface, nodes_without_matter_go_from_smooth_faces) {
   }
 }
 
+// The flat top of one tetrahedron holds the step as a cell that is as thin: it goes, a high one stays.
+TEST(RefineSurface, flat_tops_without_matter_go) {
+  constexpr int cells = 6;
+  constexpr double h = 1.0 / cells;
+  for (const double high : {0.05, 0.2}) {
+    Cloud<3> cloud = testing::unrecovered({.shape = SpaceShape::cube, .cells = cells});
+    const NodeIndex top = cloud.position.next();
+    const auto below = std::find_if(cloud.facets.begin(), cloud.facets.end(), [&](const Facet<3>& facet) {
+      const auto x = corners_of<3>(facet, cloud.position);
+      return ((x[0] + x[1] + x[2]) / 3.0 - Vec3(0.5, 0.5, 1.0)).cwiseAbs().maxCoeff() < 0.5 * h;
+    });
+    ASSERT_NE(below, cloud.facets.end());
+    const Facet<3> facet = *below;
+    const auto x = corners_of<3>(facet, cloud.position);
+    cloud.position.push_back((x[0] + x[1] + x[2]) / 3.0 + high * h * Vec3::UnitZ());
+    below->node[2] = top;
+    for (const std::size_t k : {1, 2})
+      cloud.facets.push_back({{facet.node[k], facet.node[(k + 1) % 3], top}, facet.piece});
+    ASSERT_NEAR(enclosed_measure(cloud), 1.0 + high / 6.0 * h * h * h, 1e-12);
+    WorkingSurface surface = loose_surface_of(cloud);
+    Field size(cloud.position.size(), h), matter = enough(size);
+    matter[index_of(top)] = high / 24.0 * h * h * h;
+    PassReport report;
+    const RefinedSurface refined = refine_surface(surface, size, matter, {}, report, PeriodImages(cloud, {}));
+    EXPECT_EQ(exists(refined.into[top]), high < 0.1) << high;
+  }
+}
+
 // Corners and edges of a body of one piece, sheared or not, are no tips, and straight edges lose no more
 // nodes than they are short.
 TEST(RefineSurface, edges_and_corners_are_no_tips) {

@@ -31,7 +31,8 @@ struct Slice {
   Vec3 shift{1.0, 0.0, 0.0};
 
   explicit Slice(const std::function<Vec3(const Vec3&)>& place = [](const Vec3& x) { return x; })
-      : block(clouds::tetrahedral_block({1, 1, 1}, {cells, cells, cells}, place)), rules(rules_of(block.cloud)),
+      : block(clouds::tetrahedral_block({1, 1, 1}, {cells, cells, cells}, place)),
+        rules(rules_of(block.cloud)),
         structure(structure_of(block.cloud, voronoi::connected(block.cloud, block.tetrahedra))),
         body(block.cloud, properties()) {}
 
@@ -80,8 +81,7 @@ struct Slice {
     for (const auto& [a, b] : shifted_nodes(cloud, rules.periods[0]))
       EXPECT_LT((cloud.position[b] - cloud.position[a] - shift).norm(), 1e-13);
     // matter goes with the volume that it fills
-    for (const NodeIndex i : body.nodes())
-      EXPECT_NEAR(body.node().filled(i), structure.volume(i), 1e-13 * h);
+    for (const NodeIndex i : body.nodes()) EXPECT_NEAR(body.node().filled(i), structure.volume(i), 1e-13 * h);
     // and initial positions are labels: those of nodes that are made lie a period on
     const Resampling<3> change = body.finish(structure);
     for (Eigen::Index c = 0; c < 3; ++c) {
@@ -177,7 +177,8 @@ TEST(Seams, do_not_cross_anything) {
   const Vec3 corner(1.0 - 0.2 * Slice::h, 0.45, 1.0 - 0.85 * Slice::h);
   for (std::size_t k = 0; k < 4; ++k) {
     debris[k] = cloud.position.next();
-    cloud.position.push_back(corner + 0.1 * Slice::h * (k == 0 ? Vec3::Zero() : Vec3(Vec3::Unit(static_cast<int>(k) - 1))));
+    cloud.position.push_back(
+        corner + 0.1 * Slice::h * (k == 0 ? Vec3::Zero() : Vec3(Vec3::Unit(static_cast<int>(k) - 1))));
   }
   tetrahedra.push_back(debris);
   for (const auto& face : voronoi::face_of_tetrahedron)
