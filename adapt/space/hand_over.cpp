@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <iterator>
 #include <utility>
+#include <vector>
 
 namespace cnem::adapt {
 namespace {
@@ -30,8 +32,8 @@ struct Move {
 /// What goes over at once: tetrahedra without common nodes.
 class Layer {
 public:
-  Layer(WorkingBody& body, SpaceStructure& structure, const SpaceRules& rules)
-      : body_(body), structure_(structure), rules_(rules), cloud_(body.cloud()),
+  Layer(WorkingBody& body, SpaceStructure& structure, const SpaceRules& rules, PassReport& report)
+      : body_(body), structure_(structure), rules_(rules), report_(report), cloud_(body.cloud()),
         images_(cloud_, rules.periods), periods_of_(cloud_.position.size(), 0),
         on_boundary_(cloud_.position.size(), 0) {
     for (const std::vector<NodeIndex>& group : images_.groups())
@@ -79,6 +81,10 @@ private:
     return found != sides_.end() && found->first == wanted.first ? found->second : CloudFacetIndex::none;
   }
 
+  bool may_go_together(NodeIndex i, NodeIndex k) const {
+    return body_.may_mix(i, k) && cloud_.one_body(i, k);
+  }
+
   /// Whether the boundary stays a manifold on both sides; fills in where the tetrahedron goes.
   bool may_go(Move& move) const {
     const auto& node = structure_.mesh.node[move.tetrahedron];
@@ -107,10 +113,12 @@ private:
     }
     // there
     for (std::size_t c = 0; c < 4; ++c) {
-      if (!body_.may_mix(node[0], node[c]) || periods_of_[node[c]] > 1) return false;
-      const bool beyond = sides.size() == 1 && sides[0] == c;
-      move.image[c] = images_.image(node[c], piece);
-      if (exists(move.image[c]) == beyond || (beyond && body_.held(node[c]))) return false;
+      const NodeIndex i = node[c], image = images_.image(i, piece);
+      const bool beyond = sides.size() == 1 && sides[0] == c; // of the side, and of all others
+      if (!may_go_together(node[0], i) || periods_of_[i] != (beyond ? 0 : 1) || (beyond && body_.held(i)))
+        return false;
+      if (exists(image) == beyond || (exists(image) && !may_go_together(i, image))) return false;
+      move.image[c] = image;
     }
     if (sides.size() == 2) {
       const auto linked = structure_.neighbours(move.image[sides[0]]);
@@ -138,8 +146,11 @@ private:
       if (!exists(move.image[c])) {
         const std::size_t beside = (c + 1) % 4;
         move.image[c] = body_.insert_image(node[c], node[beside], move.image[beside]);
+        ++report_.inserted_boundary;
       }
-      parcels.push_back({node[c], move.image[c], node[c] == move.emptied ? 1.0 : volume / all});
+      const double share = node[c] == move.emptied ? 1.0 : volume / all;
+      if (share > 0.0 && body_.node().mass[index_of(node[c])] > 0.0)
+        parcels.push_back({node[c], move.image[c], share});
     }
   }
 
@@ -173,19 +184,24 @@ private:
     kept.insert(kept.end(), opened.begin(), opened.end());
     IndexedVector<NodeIndex, char> gone(body_.size(), 0);
     for (const Move& move : moves)
-      if (exists(move.emptied)) gone[move.emptied] = 1;
+      if (exists(move.emptied)) {
+        gone[move.emptied] = 1;
+        ++report_.removed_boundary;
+      }
     const IndexedVector<NodeIndex, NodeIndex> number = numbers_without(gone);
     body_.set_boundary(std::move(kept));
     body_.move(parcels);
     body_.drop(gone);
     for (auto& node : tetrahedra)
       for (NodeIndex& i : node) i = number[i];
-    structure_ = structure_of(body_.cloud(), voronoi::connected(body_.cloud(), tetrahedra), rules_.cells);
+    structure_ = structure_of(body_.cloud(), voronoi::connected(body_.cloud(), tetrahedra));
+    report_.recut += static_cast<int>(moves.size());
   }
 
   WorkingBody& body_;
   SpaceStructure& structure_;
   const SpaceRules& rules_;
+  PassReport& report_;
   const Cloud<3>& cloud_;
   const PeriodImages images_;
   IndexedVector<NodeIndex, std::size_t> periods_of_; ///< that a node is on, or one that is its image
@@ -197,10 +213,11 @@ private:
 } // namespace
 
 int hand_over(WorkingBody& body, SpaceStructure& structure, const SpaceRules& rules,
-              const IndexedVector<SimplexIndex, char>& goes) {
+              const IndexedVector<SimplexIndex, char>& goes, PassReport& report) {
+  assert(body.cloud().twins.empty());
   Marks waits = goes;
   int all = 0;
-  for (int some = 1; some > 0; all += some) some = Layer(body, structure, rules).run(waits);
+  for (int some = 1; some > 0; all += some) some = Layer(body, structure, rules, report).run(waits);
   return all;
 }
 

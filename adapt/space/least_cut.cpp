@@ -9,15 +9,15 @@
 
 namespace cnem::adapt {
 
-std::vector<char> side_of_least_cut(std::size_t vertices, const std::vector<GraphEdge>& links,
+std::vector<char> side_of_least_cut(std::size_t vertices, const std::vector<GraphEdge>& edges,
                                     std::size_t source, std::size_t sink) {
-  const auto ends_of = [&](std::size_t e) { // each link there and back
-    const GraphEdge& link = links[e / 2];
-    return e % 2 == 0 ? std::pair(link.from, link.to) : std::pair(link.to, link.from);
+  const auto ends_of = [&](std::size_t e) { // each there and back
+    const GraphEdge& edge = edges[e / 2];
+    return e % 2 == 0 ? std::pair(edge.from, edge.to) : std::pair(edge.to, edge.from);
   };
   using Graph = boost::compressed_sparse_row_graph<boost::directedS, boost::no_property, boost::no_property,
                                                    boost::no_property, std::size_t, std::size_t>;
-  std::vector<std::size_t> order(2 * links.size()), place(2 * links.size());
+  std::vector<std::size_t> order(2 * edges.size()), place(2 * edges.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return ends_of(a).first < ends_of(b).first; });
@@ -26,13 +26,13 @@ std::vector<char> side_of_least_cut(std::size_t vertices, const std::vector<Grap
   std::vector<double> sorted_capacity;
   for (const std::size_t e : order) {
     sorted.push_back(ends_of(e));
-    sorted_capacity.push_back(links[e / 2].weight);
+    sorted_capacity.push_back(edges[e / 2].weight);
   }
   const Graph graph(boost::edges_are_sorted, sorted.begin(), sorted.end(), vertices);
-  std::vector<boost::graph_traits<Graph>::edge_descriptor> edge(sorted.size()), reverse(sorted.size());
+  std::vector<boost::graph_traits<Graph>::edge_descriptor> descriptor(sorted.size()), reverse(sorted.size());
   for (const auto e : boost::make_iterator_range(boost::edges(graph)))
-    edge[boost::get(boost::edge_index, graph, e)] = e;
-  for (std::size_t e = 0; e < order.size(); ++e) reverse[e] = edge[place[order[e] ^ 1]];
+    descriptor[boost::get(boost::edge_index, graph, e)] = e;
+  for (std::size_t e = 0; e < order.size(); ++e) reverse[e] = descriptor[place[order[e] ^ 1]];
   std::vector<double> residual(sorted.size()), distance(vertices, 0.0);
   std::vector<boost::graph_traits<Graph>::edge_descriptor> predecessor(vertices);
   std::vector<boost::default_color_type> colour(vertices);

@@ -133,14 +133,14 @@ private:
     std::iota(vertex.begin(), vertex.end(), std::size_t{0});
     for (const std::int32_t other : seeds)
       if (other != seeds[s]) vertex[index_of(other)] = blocks_;
-    std::vector<GraphEdge> links;
+    std::vector<GraphEdge> edges;
     for (const Passage& passage : passages_) {
       if (part_of_block_[index_of(passage.from)] != 0 || part_of_block_[index_of(passage.to)] != 0) continue;
       const std::size_t a = vertex[index_of(passage.from)], b = vertex[index_of(passage.to)];
       if (a == b) continue;
-      links.push_back({a, b, passage.weight});
+      edges.push_back({a, b, passage.weight});
     }
-    const std::vector<char> with_source = side_of_least_cut(blocks_ + 1, links, index_of(seeds[s]), blocks_);
+    const std::vector<char> with_source = side_of_least_cut(blocks_ + 1, edges, index_of(seeds[s]), blocks_);
     for (std::size_t b = 0; b < blocks_; ++b)
       if (part_of_block_[b] == 0 && component_[b] == component_[index_of(seeds[s])] &&
           with_source[vertex[b]] != 0)

@@ -333,19 +333,27 @@ Resampling<3> resample(const Cloud<3>& present, NodeProperties properties, const
   constexpr int times = 2;
   constexpr double shorter = 0.7, beside = 1.5;
   Field size = properties.size;
-  bool recut = !rules.periods.empty(); // but where the boundary cannot be recovered then
+  bool recut = true; // but where the cloud has no structure then
   for (int n = 1;;) {
     PassReport tried = report;
+    const auto give_up_recut = [&] {
+      if (tried.recut == report.recut) return false;
+      recut = false;
+      ++report.undone;
+      return true;
+    };
     try {
       Resampling<3> change = attempt(cloud, properties, size, rules, pairs.empty(), recut, tried);
       change.old_position = present.position;
       report = tried;
       report.volume_change += enclosed_measure(change.cloud) - enclosed_measure(present);
       return change;
+    } catch (const GeometryError&) {
+      if (!give_up_recut()) throw;
     } catch (const NotRecovered& failure) {
+      if (give_up_recut()) continue;
       if (n == times) throw GeometryError(failure.message);
       ++report.undone;
-      if (tried.recut > report.recut && std::exchange(recut, false)) continue;
       ++n;
       for (const NodeIndex i : cloud.position.indices()) {
         double& h = size[index_of(i)];

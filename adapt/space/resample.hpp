@@ -33,7 +33,8 @@ struct SpaceRules {
   SpaceThresholds thresholds{};
   SeparationRules separation{}; ///< where NodeProperties::broken is given
   /// Pieces of which the second is a shifted copy of the first: they stay so, node by node. Nodes on them
-  /// come and go together and never move. Nothing may be broken then.
+  /// come and go together and never move, but where a side is cut anew nodes come to it, or are left by it
+  /// (recut_sides()). Nothing may be broken then.
   std::vector<Period> periods{};
 };
 

@@ -6,7 +6,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
+#include <array>
+#include <utility>
+#include <vector>
 
 namespace cnem::adapt {
 namespace {
@@ -29,6 +31,16 @@ public:
         else
           on_skin_[i] = 1;
       }
+    shallow_ = shallowness();
+  }
+
+  /// m², what the side weighs where it is.
+  double weight_of_side() const {
+    double sum = 0.0;
+    for (const SimplexIndex t : mesh_.node.indices())
+      for (std::size_t k = 0; k < 4; ++k)
+        if (is_of_side(t, k)) sum += weight(t, k);
+    return sum;
   }
 
   /// What goes over; empty where the side is far from the skin or stays.
@@ -47,8 +59,13 @@ public:
 
 private:
   Vec3 at(NodeIndex i) const { return body_.at(i); }
+  bool is_of_side(SimplexIndex t, std::size_t k) const {
+    const CloudFacetIndex f = mesh_.facet[t][k];
+    return exists(f) && body_.cloud().facets[f].piece == side_;
+  }
 
-  /// Whether a tetrahedron that reaches from the side to the skin is thinner than they should be apart.
+  /// Whether a tetrahedron that reaches from the side to the skin is so thin that they are nearer to each
+  /// other than they should be.
   bool is_thin(SimplexIndex t) const {
     const auto& node = mesh_.node[t];
     std::vector<NodeIndex> below, skin, border;
@@ -102,37 +119,39 @@ private:
     return list;
   }
 
+  /// m², of a face in a cut.
+  double weight(SimplexIndex t, std::size_t k) const {
+    constexpr double of_shallow = 4.0;
+    double sum = 1.0;
+    for (const std::size_t c : face_of_tetrahedron[k])
+      sum += of_shallow * shallow_[index_of(mesh_.node[t][c])];
+    return area(t, k) * sum;
+  }
+
   /// Those beyond the least cut through tetrahedra that are free to go. Nodes just below the skin weigh, as a
   /// side should not end in slivers, and the side where it is weighs less, as it should not wander.
   Marks cut(const Marks& free) const {
-    constexpr double keeps = 0.75, of_shallow = 4.0;
+    constexpr double keeps = 0.75;
     IndexedVector<SimplexIndex, std::size_t> vertex(free.size(), 0);
     std::size_t vertices = 0;
     for (const SimplexIndex t : free.indices())
       if (free[t]) vertex[t] = vertices++;
     const std::size_t stays = vertices++, goes = vertices++;
-    const Field shallow = shallowness();
-    const auto weight = [&](SimplexIndex t, std::size_t k) {
-      double sum = 1.0;
-      for (const std::size_t c : face_of_tetrahedron[k])
-        sum += of_shallow * shallow[index_of(mesh_.node[t][c])];
-      return area(t, k) * sum;
-    };
-    std::vector<GraphEdge> links;
+    std::vector<GraphEdge> edges;
     for (const SimplexIndex t : free.indices()) {
       if (!free[t]) continue;
       for (std::size_t k = 0; k < 4; ++k) {
         if (const SimplexIndex next = mesh_.neighbour[t][k]; exists(next)) {
           if (!free[next])
-            links.push_back({stays, vertex[t], weight(t, k)});
+            edges.push_back({stays, vertex[t], weight(t, k)});
           else if (t < next)
-            links.push_back({vertex[t], vertex[next], weight(t, k)});
-        } else if (body_.cloud().facets[mesh_.facet[t][k]].piece == side_) {
-          links.push_back({vertex[t], goes, keeps * weight(t, k)});
+            edges.push_back({vertex[t], vertex[next], weight(t, k)});
+        } else if (is_of_side(t, k)) {
+          edges.push_back({vertex[t], goes, keeps * weight(t, k)});
         }
       }
     }
-    const std::vector<char> over = side_of_least_cut(vertices, links, goes, stays);
+    const std::vector<char> over = side_of_least_cut(vertices, edges, goes, stays);
     Marks beyond(free.size(), 0);
     for (const SimplexIndex t : free.indices()) beyond[t] = free[t] && over[vertex[t]];
     return beyond;
@@ -145,25 +164,31 @@ private:
   PieceIndex side_;
   IndexedVector<NodeIndex, char> on_side_, on_skin_;
   IndexedVector<NodeIndex, char> elsewhere_; ///< on other sides, or held
+  Field shallow_;                            ///< [node] as shallowness()
 };
 
 } // namespace
 
 bool recut_sides(WorkingBody& body, SpaceStructure& structure, const SpaceRules& rules, PassReport& report) {
-  WorkingBody recut = body;
-  SpaceStructure now = structure;
-  int over = 0;
+  bool any = false;
   for (const Period& period : rules.periods)
     for (const PieceIndex side : period) {
-      const Marks beyond = NewCut(recut, now, rules, side).beyond();
-      if (!beyond.empty()) over += hand_over(recut, now, rules, beyond);
+      const NewCut cut(body, structure, rules, side);
+      const Marks beyond = cut.beyond();
+      if (std::find(beyond.begin(), beyond.end(), 1) == beyond.end()) continue;
+      WorkingBody recut = body;
+      SpaceStructure now = structure;
+      PassReport told;
+      if (hand_over(recut, now, rules, beyond, told) == 0) continue;
+      if (NewCut(recut, now, rules, side).weight_of_side() >= cut.weight_of_side()) continue; // not all went
+      if (!voronoi::crossings(recut.cloud()).empty()) continue;
+      body = std::move(recut);
+      body.set_sound();
+      structure = std::move(now);
+      report += told;
+      any = true;
     }
-  if (over == 0 || !voronoi::crossings(recut.cloud()).empty()) return false;
-  body = std::move(recut);
-  body.set_sound();
-  structure = std::move(now);
-  report.recut += over;
-  return true;
+  return any;
 }
 
 } // namespace cnem::adapt

@@ -36,10 +36,10 @@ public:
     hold(made, held(i));
     return made;
   }
-  /// A node without matter that lies to another as one image to the other.
+  /// A node without matter that lies to `there`, and of its body, as i lies to `here`.
   NodeIndex insert_image(NodeIndex i, NodeIndex here, NodeIndex there) {
     append({{i, 1.0}, {here, -1.0}, {there, 1.0}});
-    add(at(i) + (at(there) - at(here)), i);
+    add(at(i) + (at(there) - at(here)), there);
     return as<NodeIndex>(size() - 1);
   }
   void place(NodeIndex i, const Vec3& x) {

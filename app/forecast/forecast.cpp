@@ -113,7 +113,7 @@ template<int dim> double cost_of_passes(const input::Case& input, const Explicit
 /// docs/cutting.md.
 double squeezed_by_tools(const input::Case& input, const ExplicitSolver<3>& solver, double spacing) {
   if (!input.adapt.resample || input.time.fixed) return 1.0;
-  constexpr double each = 0.2, most = 10.0;
+  constexpr double each = 0.1, most = 10.0;
   double way = 0.0;
   for (const contact::Tool<3>& tool : solver.conditions().contact.tools())
     way = std::max(way, tool.led_displacement(input.time.end).norm());

@@ -7,13 +7,13 @@
 #include "core/operators/parcels.hpp"
 #include "tests/space_clouds.hpp"
 #include "voronoi/space/crossings.hpp"
+#include "voronoi/space/surface.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numeric>
 
 namespace cnem::adapt {
 namespace {
@@ -60,17 +60,34 @@ struct Slice {
     double sum = 0.0;
     for (const Facet<3>& facet : body.cloud().facets)
       if (rules.surface.is_still(facet.piece))
-        sum += 0.5 * area_normal<3>(corners_of<3>(facet, body.cloud().position)).norm();
+        sum += area_normal<3>(corners_of<3>(facet, body.cloud().position)).norm();
     return sum;
   }
-  IndexedVector<SimplexIndex, char> marks(const std::function<bool(const Vec3&)>& inside) const {
-    IndexedVector<SimplexIndex, char> list;
-    for (const auto& node : structure.mesh.node) {
+  void repeat(const std::string& axis) {
+    rules.periods.push_back({piece_of(block.cloud, axis + "-"), piece_of(block.cloud, axis + "+")});
+    rules.surface.still.insert(rules.surface.still.end(), rules.periods.back().begin(),
+                               rules.periods.back().end());
+  }
+  std::vector<SimplexIndex> inside(const std::function<bool(const Vec3&)>& region) const {
+    std::vector<SimplexIndex> list;
+    for (const SimplexIndex t : structure.mesh.node.indices()) {
       Vec3 centre = Vec3::Zero();
-      for (const NodeIndex i : node) centre += 0.25 * body.at(i);
-      list.push_back(inside(centre));
+      for (const NodeIndex i : structure.mesh.node[t]) centre += 0.25 * body.at(i);
+      if (region(centre)) list.push_back(t);
     }
     return list;
+  }
+  /// The number that went over of these.
+  int hand(const std::vector<SimplexIndex>& list) {
+    IndexedVector<SimplexIndex, char> goes(structure.mesh.node.size(), 0);
+    for (const SimplexIndex t : list) goes[t] = 1;
+    PassReport report;
+    const std::size_t nodes = body.size();
+    const int gone = hand_over(body, structure, rules, goes, report);
+    EXPECT_EQ(report.recut, gone);
+    EXPECT_EQ(static_cast<int>(body.size()) - static_cast<int>(nodes),
+              report.inserted_boundary - report.removed_boundary);
+    return gone;
   }
 
   /// What holds whatever has gone over.
@@ -78,8 +95,13 @@ struct Slice {
     const Cloud<3>& cloud = body.cloud();
     EXPECT_NEAR(enclosed_measure(cloud), enclosed_measure(block.cloud), 1e-13);
     EXPECT_TRUE(voronoi::crossings(cloud).empty());
-    for (const auto& [a, b] : shifted_nodes(cloud, rules.periods[0]))
-      EXPECT_LT((cloud.position[b] - cloud.position[a] - shift).norm(), 1e-13);
+    EXPECT_NO_THROW(voronoi::surface_edges(cloud));
+    for (const auto& node : structure.mesh.node) EXPECT_GT(volume_of(cloud, node), 0.0);
+    for (const Period& period : rules.periods)
+      for (const auto& [a, b] : shifted_nodes(cloud, period))
+        if (period == rules.periods[0]) {
+          EXPECT_LT((cloud.position[b] - cloud.position[a] - shift).norm(), 1e-13);
+        }
     // matter goes with the volume that it fills
     for (const NodeIndex i : body.nodes()) EXPECT_NEAR(body.node().filled(i), structure.volume(i), 1e-13 * h);
     // and initial positions are labels: those of nodes that are made lie a period on
@@ -98,8 +120,8 @@ struct Slice {
 TEST(Seams, a_layer_goes_over) {
   for (const double end : {1.0, 0.0}) {
     Slice slice;
-    const auto layer = slice.marks([&](const Vec3& x) { return std::abs(x.x() - end) < Slice::h; });
-    EXPECT_EQ(hand_over(slice.body, slice.structure, slice.rules, layer), 6 * Slice::cells * Slice::cells);
+    const auto layer = slice.inside([&](const Vec3& x) { return std::abs(x.x() - end) < Slice::h; });
+    EXPECT_EQ(slice.hand(layer), 6 * Slice::cells * Slice::cells);
     slice.expect_whole();
     EXPECT_EQ(slice.body.size(), slice.block.cloud.position.size());
     const double by = end == 1.0 ? -Slice::h : Slice::h;
@@ -111,19 +133,37 @@ TEST(Seams, a_layer_goes_over) {
 }
 
 TEST(Seams, single_tetrahedra_go_over_where_the_boundary_stays_a_manifold) {
-  int gone = 0, stayed = 0;
-  const Slice whole;
-  for (const SimplexIndex t : whole.structure.mesh.node.indices()) {
-    if (whole.body.at(whole.structure.mesh.node[t][0]).x() < 0.5) continue;
-    Slice slice;
-    IndexedVector<SimplexIndex, char> one(slice.structure.mesh.node.size(), 0);
-    one[t] = 1;
-    const bool goes = hand_over(slice.body, slice.structure, slice.rules, one) == 1;
-    (goes ? gone : stayed) += 1;
-    if (goes) slice.expect_whole();
+  for (const bool two_periods : {false, true}) {
+    int gone = 0, stayed = 0;
+    const Slice whole;
+    for (const SimplexIndex t : whole.structure.mesh.node.indices()) {
+      if (whole.body.at(whole.structure.mesh.node[t][0]).x() < 0.5) continue;
+      Slice slice;
+      if (two_periods) slice.repeat("y");
+      const bool goes = slice.hand({t}) == 1;
+      (goes ? gone : stayed) += 1;
+      if (goes) slice.expect_whole();
+    }
+    EXPECT_GT(gone, 30);
+    EXPECT_GT(stayed, 50); // inner ones, and those with a corner on another face
   }
-  EXPECT_GT(gone, 50);
-  EXPECT_GT(stayed, 50); // inner ones, and those with a corner on another face
+}
+
+// Nothing goes to another body, to another material, or from under a condition.
+TEST(Seams, what_may_not_mix_or_go_stays) {
+  const auto layer = [](const Vec3& x) { return x.x() > 1.0 - Slice::h; };
+  Slice bodies;
+  for (const Vec3& x : bodies.block.cloud.position) bodies.block.cloud.body.push_back(x.x() > 0.5);
+  bodies.body = WorkingBody(bodies.block.cloud, bodies.properties());
+  EXPECT_EQ(bodies.hand(bodies.inside(layer)), 0);
+  Slice parts;
+  NodeProperties p = parts.properties();
+  for (const Vec3& x : parts.block.cloud.position) p.part.push_back(x.x() > 0.5);
+  parts.body = WorkingBody(parts.block.cloud, p);
+  EXPECT_EQ(parts.hand(parts.inside(layer)), 0);
+  Slice held;
+  held.hold();
+  EXPECT_EQ(held.hand(held.inside(layer)), 0);
 }
 
 /// The skin has gone by `lean` h along x, the layer `thick` h below it not; the body turned about z or not.
