@@ -29,7 +29,13 @@ struct Move {
   std::vector<CloudFacetIndex> shut{}; ///< of one side and of the other, which come to lie within the body
 };
 
-/// What goes over at once: tetrahedra without common nodes.
+CellLists<SimplexIndex> tetrahedra_of_nodes(std::size_t nodes, const voronoi::Tetrahedra& mesh) {
+  return group_by_cell<SimplexIndex>(
+      nodes, mesh.node.size(), [&](std::size_t t) -> const auto& { return mesh.node[t]; });
+}
+
+/// What goes over at once: tetrahedra without common nodes. Of the structure, mesh and lists of tetrahedra
+/// are kept up.
 class Layer {
 public:
   Layer(WorkingBody& body, SpaceStructure& structure, const SpaceRules& rules, PassReport& report)
@@ -49,6 +55,10 @@ public:
     }
     std::sort(sides_.begin(), sides_.end());
     std::sort(edges_.begin(), edges_.end());
+    owner_.resize(cloud_.facets.size());
+    for (const SimplexIndex t : structure.mesh.node.indices())
+      for (std::size_t k = 0; k < 4; ++k)
+        if (const CloudFacetIndex f = structure.mesh.facet[t][k]; exists(f)) owner_[f] = {t, k};
   }
 
   /// Moves what may of those with a mark, and takes it off. The number of tetrahedra that went over.
@@ -79,6 +89,14 @@ private:
     const std::pair wanted(sorted(corner), as<CloudFacetIndex>(0));
     const auto found = std::lower_bound(sides_.begin(), sides_.end(), wanted);
     return found != sides_.end() && found->first == wanted.first ? found->second : CloudFacetIndex::none;
+  }
+
+  bool are_linked(NodeIndex i, NodeIndex k) const {
+    const auto around = structure_.tetrahedra.of(i);
+    return std::any_of(around.begin(), around.end(), [&](SimplexIndex t) {
+      const auto& node = structure_.mesh.node[t];
+      return std::find(node.begin(), node.end(), k) != node.end();
+    });
   }
 
   bool may_go_together(NodeIndex i, NodeIndex k) const {
@@ -120,10 +138,7 @@ private:
       if (exists(image) == beyond || (exists(image) && !may_go_together(i, image))) return false;
       move.image[c] = image;
     }
-    if (sides.size() == 2) {
-      const auto linked = structure_.neighbours(move.image[sides[0]]);
-      if (std::find(linked.begin(), linked.end(), move.image[sides[1]]) != linked.end()) return false;
-    }
+    if (sides.size() == 2 && are_linked(move.image[sides[0]], move.image[sides[1]])) return false;
     for (const std::size_t k : sides) {
       Corners corner;
       for (std::size_t c = 0; c < 3; ++c) corner[c] = move.image[face_of_tetrahedron[k][c]];
@@ -155,47 +170,75 @@ private:
   }
 
   void carry_out(std::vector<Move>& moves) {
-    const voronoi::Tetrahedra& mesh = structure_.mesh;
-    std::vector<std::array<NodeIndex, 4>> tetrahedra(mesh.node.begin(), mesh.node.end());
-    IndexedVector<CloudFacetIndex, Facet<3>> facets = cloud_.facets;
+    voronoi::Tetrahedra& mesh = structure_.mesh;
+    IndexedVector<CloudFacetIndex, Facet<3>> facets = cloud_.facets; // those that open come last
+    IndexedVector<NodeIndex, char> gone(body_.size(), 0);
     IndexedVector<CloudFacetIndex, char> shut(facets.size(), 0);
-    std::vector<Facet<3>> opened;
     std::vector<Parcel> parcels;
     for (Move& move : moves) {
-      const SimplexIndex t = move.tetrahedron;
       hand_matter(move, parcels);
       for (const CloudFacetIndex f : move.shut) shut[f] = 1;
-      const auto& node = mesh.node[t];
-      for (std::size_t k = 0; k < 4; ++k) {
-        const auto& face = face_of_tetrahedron[k];
-        const Corners image{move.image[face[0]], move.image[face[1]], move.image[face[2]]};
-        if (const CloudFacetIndex f = mesh.facet[t][k]; !exists(f)) {
-          opened.push_back({{node[face[2]], node[face[1]], node[face[0]]}, facets[move.shut[0]].piece});
-          opened.push_back({image, facets[move.shut[1]].piece});
-        } else if (!shut[f]) {
-          facets[f].node = image;
-        }
-      }
-      tetrahedra[index_of(t)] = move.image;
-    }
-    IndexedVector<CloudFacetIndex, Facet<3>> kept;
-    for (const CloudFacetIndex f : facets.indices())
-      if (!shut[f]) kept.push_back(facets[f]);
-    kept.insert(kept.end(), opened.begin(), opened.end());
-    IndexedVector<NodeIndex, char> gone(body_.size(), 0);
-    for (const Move& move : moves)
+      connect(move, facets);
       if (exists(move.emptied)) {
         gone[move.emptied] = 1;
         ++report_.removed_boundary;
       }
+    }
+    shut.resize(facets.size(), 0);
+    gone.resize(body_.size(), 0);
+    IndexedVector<CloudFacetIndex, Facet<3>> kept;
+    IndexedVector<CloudFacetIndex, CloudFacetIndex> facet_number(facets.size(), CloudFacetIndex::none);
+    for (const CloudFacetIndex f : facets.indices()) {
+      if (shut[f]) continue;
+      facet_number[f] = kept.next();
+      kept.push_back(facets[f]);
+    }
     const IndexedVector<NodeIndex, NodeIndex> number = numbers_without(gone);
     body_.set_boundary(std::move(kept));
     body_.move(parcels);
     body_.drop(gone);
-    for (auto& node : tetrahedra)
-      for (NodeIndex& i : node) i = number[i];
-    structure_ = structure_of(body_.cloud(), voronoi::connected(body_.cloud(), tetrahedra));
+    mesh.of_node.assign(body_.size(), SimplexIndex::none);
+    for (const SimplexIndex t : mesh.node.indices())
+      for (std::size_t k = 0; k < 4; ++k) {
+        NodeIndex& i = mesh.node[t][k];
+        i = number[i];
+        if (!exists(mesh.of_node[i])) mesh.of_node[i] = t;
+        if (CloudFacetIndex& f = mesh.facet[t][k]; exists(f)) f = facet_number[f];
+      }
+    structure_.tetrahedra = tetrahedra_of_nodes(body_.size(), mesh);
     report_.recut += static_cast<int>(moves.size());
+  }
+
+  /// Opens the faces that a tetrahedron leaves, and closes those that it comes to.
+  void connect(const Move& move, IndexedVector<CloudFacetIndex, Facet<3>>& facets) {
+    voronoi::Tetrahedra& mesh = structure_.mesh;
+    const SimplexIndex t = move.tetrahedron;
+    const PieceIndex here = facets[move.shut[0]].piece, there = facets[move.shut[1]].piece;
+    const std::array<NodeIndex, 4> node = std::exchange(mesh.node[t], move.image);
+    for (std::size_t k = 0, side = 0; k < 4; ++k) {
+      const auto& face = face_of_tetrahedron[k];
+      const Corners image{move.image[face[0]], move.image[face[1]], move.image[face[2]]};
+      SimplexIndex& neighbour = mesh.neighbour[t][k];
+      CloudFacetIndex& facet = mesh.facet[t][k];
+      if (exists(neighbour)) {
+        auto& back = mesh.neighbour[neighbour];
+        const auto from = index_of(std::find(back.begin(), back.end(), t) - back.begin());
+        back[from] = SimplexIndex::none;
+        mesh.facet[neighbour][from] = facets.next();
+        facets.push_back({{node[face[2]], node[face[1]], node[face[0]]}, here});
+        neighbour = SimplexIndex::none;
+        facet = facets.next();
+        facets.push_back({image, there});
+      } else if (side < move.shut.size() && facet == move.shut[side]) {
+        const auto [other, face_there] = owner_[move.shut[side + 1]];
+        mesh.neighbour[other][face_there] = t;
+        mesh.facet[other][face_there] = facet = CloudFacetIndex::none;
+        neighbour = other;
+        side += 2;
+      } else {
+        facets[facet].node = image;
+      }
+    }
   }
 
   WorkingBody& body_;
@@ -208,6 +251,8 @@ private:
   IndexedVector<NodeIndex, char> on_boundary_;
   std::vector<std::pair<Corners, CloudFacetIndex>> sides_; ///< facets of sides by their nodes
   std::vector<std::pair<NodeIndex, NodeIndex>> edges_;     ///< of the boundary
+  IndexedVector<CloudFacetIndex, std::pair<SimplexIndex, std::size_t>>
+      owner_; ///< whose face it is, and which
 };
 
 } // namespace
@@ -217,7 +262,12 @@ int hand_over(WorkingBody& body, SpaceStructure& structure, const SpaceRules& ru
   assert(body.cloud().twins.empty());
   Marks waits = goes;
   int all = 0;
-  for (int some = 1; some > 0; all += some) some = Layer(body, structure, rules, report).run(waits);
+  while (std::find(waits.begin(), waits.end(), 1) != waits.end()) {
+    const int some = Layer(body, structure, rules, report).run(waits);
+    if (some == 0) break;
+    all += some;
+  }
+  if (all > 0) structure = structure_of(body.cloud(), std::move(structure.mesh));
   return all;
 }
 

@@ -97,6 +97,11 @@ struct Slice {
     EXPECT_TRUE(voronoi::crossings(cloud).empty());
     EXPECT_NO_THROW(voronoi::surface_edges(cloud));
     for (const auto& node : structure.mesh.node) EXPECT_GT(volume_of(cloud, node), 0.0);
+    const std::vector<std::array<NodeIndex, 4>> nodes(structure.mesh.node.begin(), structure.mesh.node.end());
+    const voronoi::Tetrahedra anew = voronoi::connected(cloud, nodes);
+    EXPECT_EQ(structure.mesh.neighbour, anew.neighbour);
+    EXPECT_EQ(structure.mesh.facet, anew.facet);
+    EXPECT_EQ(structure.mesh.of_node, anew.of_node);
     for (const Period& period : rules.periods)
       for (const auto& [a, b] : shifted_nodes(cloud, period))
         if (period == rules.periods[0]) {
