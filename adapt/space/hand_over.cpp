@@ -29,11 +29,6 @@ struct Move {
   std::vector<CloudFacetIndex> shut{}; ///< of one side and of the other, which come to lie within the body
 };
 
-CellLists<SimplexIndex> tetrahedra_of_nodes(std::size_t nodes, const voronoi::Tetrahedra& mesh) {
-  return group_by_cell<SimplexIndex>(
-      nodes, mesh.node.size(), [&](std::size_t t) -> const auto& { return mesh.node[t]; });
-}
-
 /// What goes over at once: tetrahedra without common nodes. Of the structure, mesh and lists of tetrahedra
 /// are kept up.
 class Layer {

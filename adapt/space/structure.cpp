@@ -13,6 +13,11 @@ double volume_of(const Cloud<3>& cloud, const std::array<NodeIndex, 4>& node) {
       {cloud.position[node[0]], cloud.position[node[1]], cloud.position[node[2]], cloud.position[node[3]]});
 }
 
+CellLists<SimplexIndex> tetrahedra_of_nodes(std::size_t nodes, const voronoi::Tetrahedra& mesh) {
+  return group_by_cell<SimplexIndex>(
+      nodes, mesh.node.size(), [&](std::size_t t) -> const auto& { return mesh.node[t]; });
+}
+
 SpaceStructure structure_of(const Cloud<3>& cloud, voronoi::Tetrahedra mesh, scni::CellKind cells) {
   SpaceStructure s;
   const std::size_t n = cloud.position.size();
@@ -23,8 +28,7 @@ SpaceStructure structure_of(const Cloud<3>& cloud, voronoi::Tetrahedra mesh, scn
   }
   if (cells == scni::CellKind::voronoi)
     s.cell = voronoi::voronoi_cells(cloud, mesh, voronoi::circumspheres(cloud, mesh)).volume;
-  s.tetrahedra = group_by_cell<SimplexIndex>(
-      n, mesh.node.size(), [&](std::size_t t) -> const auto& { return mesh.node[t]; });
+  s.tetrahedra = tetrahedra_of_nodes(n, mesh);
   std::vector<std::array<NodeIndex, 2>> edges;
   edges.reserve(8 * n);
   std::vector<NodeIndex> upper;

@@ -24,6 +24,9 @@ struct SpaceStructure {
 /// m³, of a right-handed tetrahedron.
 double volume_of(const Cloud<3>& cloud, const std::array<NodeIndex, 4>& node);
 
+/// The tetrahedra of each of so many nodes.
+CellLists<SimplexIndex> tetrahedra_of_nodes(std::size_t nodes, const voronoi::Tetrahedra& mesh);
+
 /// With the volumes of median cells, a quarter of each tetrahedron, or those of Voronoi cells. O(N).
 SpaceStructure structure_of(const Cloud<3>& cloud, voronoi::Tetrahedra mesh,
                             scni::CellKind cells = scni::CellKind::median);

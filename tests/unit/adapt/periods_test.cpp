@@ -87,7 +87,7 @@ TEST(Periods, sides_stay_copies_while_a_body_flows) {
     body.pass();
   }
   EXPECT_GT(body.total.inserted_boundary, 40);
-  EXPECT_GT(body.total.removed_boundary, 10);
+  EXPECT_GT(body.total.removed_boundary, 20);
   EXPECT_GT(body.total.recut, 10); // where the planes bulge
   EXPECT_GT(body.total.flipped, 40);
   EXPECT_GT(body.cloud.position.size(), nodes / 2);
