@@ -55,31 +55,6 @@ SurfaceDistance::SurfaceDistance(TriangleSurface surface)
   }
 }
 
-SurfaceDistance::Foot SurfaceDistance::foot(std::size_t triangle, const Vec3& x) const {
-  const auto [a, b, c] = surface_.corners(triangle);
-  const auto on_edge = [](const Vec3& p, const Vec3& q, double s, std::size_t i, std::size_t j) {
-    Foot foot{p + s * (q - p), {}};
-    foot.weight[i] = 1.0 - s;
-    foot.weight[j] = s;
-    return foot;
-  };
-  const Vec3 ab = b - a, ac = c - a, ax = x - a, bx = x - b, cx = x - c;
-  const double d1 = ab.dot(ax), d2 = ac.dot(ax);
-  if (d1 <= 0.0 && d2 <= 0.0) return {a, {1, 0, 0}};
-  const double d3 = ab.dot(bx), d4 = ac.dot(bx);
-  if (d3 >= 0.0 && d4 <= d3) return {b, {0, 1, 0}};
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) return on_edge(a, b, d1 / (d1 - d3), 0, 1);
-  const double d5 = ab.dot(cx), d6 = ac.dot(cx);
-  if (d6 >= 0.0 && d5 <= d6) return {c, {0, 0, 1}};
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return on_edge(a, c, d2 / (d2 - d6), 0, 2);
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0.0 && d4 >= d3 && d5 >= d6) return on_edge(b, c, (d4 - d3) / ((d4 - d3) + (d5 - d6)), 1, 2);
-  const double sum = va + vb + vc, v = vb / sum, w = vc / sum;
-  return {a + v * ab + w * ac, {1.0 - v - w, v, w}};
-}
-
 /// Outward normal of the triangle, or of the edge or corner that the weights leave.
 Vec3 SurfaceDistance::normal_at(std::size_t triangle, const std::array<double, 3>& weight) const {
   for (std::size_t k = 0; k < 3; ++k)
@@ -95,7 +70,7 @@ SurfaceDistance::Nearest SurfaceDistance::nearest(const Vec3& x, double bound) c
   const std::int32_t best = tree_.nearest(
       x, [&](std::int32_t t) { return (x - foot(index_of(t), x).point).squaredNorm(); }, least);
   if (best < 0) return {bound, x, Vec3::Zero(), best};
-  const Foot at = foot(index_of(best), x);
+  const TriangleFoot at = foot(index_of(best), x);
   const Vec3 outwards = normal_at(index_of(best), at.weight);
   const double side = (x - at.point).dot(outwards) < 0.0 ? -1.0 : 1.0;
   return {side * std::sqrt(least), at.point, outwards, best};

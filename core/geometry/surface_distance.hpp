@@ -1,6 +1,7 @@
 #pragma once
 // Where a point stands to a closed surface of triangles: how far away, and on which side.
 #include "core/geometry/box_tree.hpp"
+#include "core/geometry/triangle_foot.hpp"
 #include "core/geometry/triangle_surface.hpp"
 
 #include <array>
@@ -16,12 +17,9 @@ public:
   /// The surface is closed (check_closed). O(n log n).
   explicit SurfaceDistance(TriangleSurface surface);
 
-  /// Closest point of a triangle (Ericson, Real-Time Collision Detection, 5.1.5).
-  struct Foot {
-    Vec3 point{0, 0, 0};            ///< m
-    std::array<double, 3> weight{}; ///< of the corners; exactly 0 where it is on an edge or a corner
-  };
-  Foot foot(std::size_t triangle, const Vec3& x) const;
+  TriangleFoot foot(std::size_t triangle, const Vec3& x) const {
+    return foot_on_triangle(surface_.corners(triangle), x);
+  }
 
   struct Nearest {
     double distance = 0.0;      ///< m; negative inside

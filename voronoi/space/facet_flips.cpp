@@ -18,8 +18,6 @@ namespace {
 
 using Nodes = FlipMesh::Nodes;
 
-constexpr std::uint64_t most_orders = 6; ///< in which lost facets are brought back
-
 bool has(Stars& stars, const Edge& e) { return exists(stars.with(e.first, e.second)); }
 bool has(Stars& stars, const Face& f) { return exists(stars.with(f[0], f[1], f[2])); }
 
@@ -259,17 +257,18 @@ private:
 
 } // namespace
 
-Walls hold_facets(const Cloud<3>& cloud, Delaunay& mesh, Walls walls) {
-  if (walls.lost.empty()) return walls;
+HeldFacets hold_facets(const Cloud<3>& cloud, Delaunay& mesh, Walls walls, int orders) {
+  if (walls.lost.empty()) return {std::move(walls), true};
   refuse_crossings(cloud, walls.lost);
   const SurfaceParts surface(cloud, mesh.first);
   const Wanted wanted(cloud, surface, walls.lost);
   Stars stars(mesh);
   Delaunay best;
   std::size_t least = walls.lost.size() + 1;
+  bool at_once = false;
   std::set<Wanted> tried; // orders that differ in what is there already lead to the same
-  for (std::uint64_t order = 0; order < most_orders && least > 0; ++order) {
-    const Wanted next = wanted.in_order(order);
+  for (int order = 0; order < orders && least > 0; ++order) {
+    const Wanted next = wanted.in_order(as<std::uint64_t>(order));
     if (!tried.insert(next.missing(stars)).second) continue;
     Delaunay flipped = mesh;
     Holder holder(cloud, surface, flipped);
@@ -279,9 +278,10 @@ Walls hold_facets(const Cloud<3>& cloud, Delaunay& mesh, Walls walls) {
       left += !has(holder.mesh().stars(), surface.at_first(cloud.facets[f]));
     holder.mesh().finish();
     if (left < least) least = left, best = std::move(flipped);
+    at_once = order == 0 && left == 0;
   }
   mesh = std::move(best);
-  return find_walls(cloud, mesh);
+  return {find_walls(cloud, mesh), at_once};
 }
 
 } // namespace cnem::voronoi

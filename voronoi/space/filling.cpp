@@ -116,13 +116,29 @@ Tetrahedra numbered(const Cloud<3>& cloud, const Delaunay& mesh, const Walls& wa
 
 Filling filling(const Cloud<3>& cloud, Delaunay mesh) {
   Walls walls = find_walls(cloud, mesh);
-  if (auto opened = filling_of_opened(cloud, walls.lost)) return std::move(*opened);
+  if (!walls.lost.empty()) {
+    if (auto held = filling_at_once(cloud, mesh, walls)) return std::move(*held);
+    if (auto opened = filling_of_opened(cloud, walls.lost)) return std::move(*opened);
+  }
   return held_filling(cloud, std::move(mesh), std::move(walls));
+}
+
+std::optional<Filling> filling_at_once(const Cloud<3>& cloud, const Delaunay& mesh, const Walls& walls) {
+  constexpr std::size_t most = 20; // of all facets one, of those that are lost
+  if (most * walls.lost.size() > cloud.facets.size()) return std::nullopt;
+  try {
+    Delaunay flipped = mesh;
+    HeldFacets held = hold_facets(cloud, flipped, walls, 1);
+    if (!held.at_once) return std::nullopt;
+    Filling result = filling(cloud, std::move(flipped), std::move(held.walls));
+    result.flipped = true;
+    return result;
+  } catch (const GeometryError&) { return std::nullopt; } // what the others say of it tells more
 }
 
 Filling held_filling(const Cloud<3>& cloud, Delaunay mesh, Walls walls) {
   const bool lost = !walls.lost.empty();
-  if (lost) walls = hold_facets(cloud, mesh, std::move(walls));
+  if (lost) walls = hold_facets(cloud, mesh, std::move(walls)).walls;
   if (!walls.lost.empty()) throw_lost(cloud, walls.lost);
   Filling result = filling(cloud, std::move(mesh), std::move(walls));
   result.flipped = result.flipped || lost;

@@ -1,44 +1,48 @@
 #include "voronoi/space/opened.hpp"
 
 #include "core/error.hpp"
-#include "core/geometry/surface_distance.hpp"
+#include "core/geometry/box_tree.hpp"
+#include "core/geometry/cell_complex.hpp"
+#include "core/geometry/facets.hpp"
+#include "core/geometry/triangle_foot.hpp"
 #include "core/index.hpp"
 #include "voronoi/space/crossings.hpp"
 #include "voronoi/space/exact.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 namespace cnem::voronoi {
 
 namespace {
 
-constexpr double closed = 0.05; ///< of an edge: a gap at which faces touch
-constexpr double open = 0.4;    ///< what it is opened to
-constexpr double behind = 3.0;  ///< as deep as nodes go with a face
+constexpr double closed = 0.05;               ///< of an edge: a gap at which faces touch
+constexpr std::array open = {0.4, 0.25, 0.6}; ///< what it is opened to, the next where that does not do
+constexpr double behind = 3.0;                ///< as deep as nodes go with a face
 constexpr double facing = -0.5; ///< cosine between normals below which two facets look at each other
-
-TriangleSurface surface_of(const Cloud<3>& cloud) {
-  TriangleSurface surface{{cloud.position.begin(), cloud.position.end()}, {}};
-  for (const auto& facet : cloud.facets) {
-    auto& corner = surface.triangles.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k) corner[k] = as<std::int32_t>(index_of(facet.node[k]));
-  }
-  return surface;
-}
 
 class OpenedBody {
 public:
   explicit OpenedBody(const Cloud<3>& cloud)
-      : cloud_(cloud), surface_(surface_of(cloud)), around_(cloud.position.size()),
+      : cloud_(cloud),
+        around_(group_by_cell<CloudFacetIndex>(
+            cloud.position.size(), cloud.facets.size(),
+            [&](std::size_t f) -> const auto& { return cloud.facets[as<CloudFacetIndex>(f)].node; })),
         edge_(cloud.position.size(), 0.0) {
-    for (const CloudFacetIndex f : cloud.facets.indices())
-      for (const NodeIndex i : cloud.facets[f].node) around_[i].push_back(f);
-    for (const NodeIndex i : around_.indices()) {
+    std::vector<Box<3>> boxes;
+    for (const CloudFacetIndex f : cloud.facets.indices()) {
+      const auto corner = corners(f);
+      normal_.push_back(area_normal<3>(corner).normalized());
+      boxes.push_back(box_of<3>(corner));
+    }
+    tree_ = BoxTree(std::move(boxes));
+    for (const NodeIndex i : edge_.indices()) {
       double sum = 0.0;
-      for (const CloudFacetIndex f : around_[i])
+      for (const CloudFacetIndex f : around_.of(i))
         for (const NodeIndex k : cloud.facets[f].node) sum += (cloud.position[k] - cloud.position[i]).norm();
-      if (!around_[i].empty()) edge_[i] = sum / (2.0 * static_cast<double>(around_[i].size()));
+      if (!inside(i)) edge_[i] = sum / (2.0 * static_cast<double>(around_.of(i).size()));
     }
   }
 
@@ -50,14 +54,15 @@ public:
     });
   }
 
-  void set_apart() {
+  /// opening: of an edge.
+  void set_apart(double opening) {
     way_.assign(cloud_.position.size(), Vec3::Zero());
     foot_.resize(cloud_.position.size());
     for (const NodeIndex i : way_.indices()) {
-      if (around_[i].empty()) {
+      if (inside(i)) {
         foot_[i] = foot_of(i);
-      } else if (const auto gap = gap_at(i, open * edge_[i])) {
-        way_[i] = -0.5 * (open * edge_[i] - gap->width) * gap->outwards;
+      } else if (const auto gap = gap_at(i, opening * edge_[i])) {
+        way_[i] = -0.5 * (opening * edge_[i] - gap->width) * gap->outwards;
       }
     }
   }
@@ -98,6 +103,11 @@ public:
   }
 
 private:
+  bool inside(NodeIndex i) const { return around_.of(i).empty(); }
+  std::array<Vec3, 3> corners(CloudFacetIndex f) const {
+    return corners_of<3>(cloud_.facets[f], cloud_.position);
+  }
+
   struct Gap {
     double width;  ///< m
     Vec3 outwards; ///< –, across it, out of the node's own facets
@@ -112,35 +122,39 @@ private:
   std::optional<Gap> gap_at(NodeIndex i, double reach) const {
     const Vec3& x = cloud_.position[i];
     std::optional<Gap> nearest;
-    surface_.tree().overlapping({x.array() - reach, x.array() + reach}, [&](std::int32_t t) {
-      const auto& other = cloud_.facets[as<CloudFacetIndex>(t)].node;
-      if (std::find(other.begin(), other.end(), i) != other.end()) return;
-      const Vec3 to = surface_.foot(index_of(t), x).point - x;
+    tree_.overlapping({x.array() - reach, x.array() + reach}, [&](std::int32_t t) {
+      const auto other = as<CloudFacetIndex>(t);
+      const auto& node = cloud_.facets[other].node;
+      if (std::find(node.begin(), node.end(), i) != node.end()) return;
+      const Vec3 to = foot_on_triangle(corners(other), x).point - x;
       const double width = to.norm();
       constexpr double rounding = 1e-3; // of the reach, by which the node may be beyond the face
-      if (!(width < (nearest ? nearest->width : reach)) ||
-          surface_.normal(index_of(t)).dot(to) > rounding * reach)
-        return;
+      if (!(width < (nearest ? nearest->width : reach)) || normal_[other].dot(to) > rounding * reach) return;
       Vec3 outwards = Vec3::Zero();
-      for (const CloudFacetIndex f : around_[i])
-        if (const Vec3& own = surface_.normal(index_of(f)); own.dot(surface_.normal(index_of(t))) < facing)
-          outwards += own;
+      for (const CloudFacetIndex f : around_.of(i))
+        if (normal_[f].dot(normal_[other]) < facing) outwards += normal_[f];
       if (!outwards.isZero()) nearest = {width, outwards.normalized()};
     });
     return nearest;
   }
 
   FootOfNode foot_of(NodeIndex i) const {
-    const auto nearest = surface_.nearest(cloud_.position[i]);
-    const auto f = as<CloudFacetIndex>(nearest.triangle);
+    const Vec3& x = cloud_.position[i];
+    double least = std::numeric_limits<double>::infinity();
+    const auto f = as<CloudFacetIndex>(tree_.nearest(
+        x,
+        [&](std::int32_t t) {
+          return (x - foot_on_triangle(corners(as<CloudFacetIndex>(t)), x).point).squaredNorm();
+        },
+        least));
     double edge = 0.0;
     for (const NodeIndex k : cloud_.facets[f].node) edge += edge_[k] / 3.0;
-    return {f, surface_.foot(index_of(f), cloud_.position[i]).weight, std::abs(nearest.distance) / edge};
+    return {f, foot_on_triangle(corners(f), x).weight, std::sqrt(least) / edge};
   }
 
   /// Nodes inside go with the face that is nearest to them, the less the deeper they are.
   Vec3 way_of(NodeIndex i) const {
-    if (!around_[i].empty()) return way_[i];
+    if (!inside(i)) return way_[i];
     const FootOfNode& foot = foot_[i];
     Vec3 way = Vec3::Zero();
     for (std::size_t k = 0; k < 3; ++k) way += foot.weight[k] * way_[cloud_.facets[foot.facet].node[k]];
@@ -149,7 +163,7 @@ private:
 
   /// Whether it, or what it goes with, was to move.
   bool leave(NodeIndex i) {
-    if (around_[i].empty()) {
+    if (inside(i)) {
       bool any = false;
       for (const NodeIndex k : cloud_.facets[foot_[i].facet].node) any = leave(k) || any;
       return any;
@@ -160,33 +174,37 @@ private:
   }
 
   const Cloud<3>& cloud_;
-  SurfaceDistance surface_;
-  IndexedVector<NodeIndex, std::vector<CloudFacetIndex>> around_; ///< empty: inside
-  IndexedVector<NodeIndex, double> edge_;                         ///< m, mean length of edges of the surface
-  IndexedVector<NodeIndex, Vec3> way_;                            ///< m, of nodes of the surface
-  IndexedVector<NodeIndex, FootOfNode> foot_;                     ///< of nodes inside
+  BoxTree tree_;                                ///< of the facets
+  IndexedVector<CloudFacetIndex, Vec3> normal_; ///< –, unit, outwards
+  CellLists<CloudFacetIndex> around_;           ///< of each node; none: inside
+  IndexedVector<NodeIndex, double> edge_;       ///< m, mean length of edges of the surface
+  IndexedVector<NodeIndex, Vec3> way_;          ///< m, of nodes of the surface
+  IndexedVector<NodeIndex, FootOfNode> foot_;   ///< of nodes inside
 };
 
 } // namespace
 
+bool faces_touch(const Cloud<3>& cloud, const std::vector<CloudFacetIndex>& lost) {
+  return !lost.empty() && cloud.twins.empty() && OpenedBody(cloud).touches(lost);
+}
+
 std::optional<Filling> filling_of_opened(const Cloud<3>& cloud, const std::vector<CloudFacetIndex>& lost) {
-  if (lost.empty() || !cloud.twins.empty()) return std::nullopt;
+  if (!faces_touch(cloud, lost)) return std::nullopt;
   OpenedBody body(cloud);
-  if (!body.touches(lost)) return std::nullopt;
-  body.set_apart();
   constexpr int attempts = 6;
-  try {
-    for (int n = 0; n < attempts; ++n) {
-      const std::optional<Cloud<3>> moved = body.places();
-      if (!moved) break;
-      Delaunay mesh = delaunay(*moved);
-      Walls walls = find_walls(*moved, mesh);
-      Filling result = held_filling(*moved, std::move(mesh), std::move(walls));
-      if (body.leave_without_volume(result.tetrahedra, *moved)) continue;
-      result.flipped = true;
-      return result;
-    }
-  } catch (const GeometryError&) {} // it is not recovered when opened either
+  for (const double opening : open) try {
+      body.set_apart(opening);
+      for (int n = 0; n < attempts; ++n) {
+        const std::optional<Cloud<3>> moved = body.places();
+        if (!moved) break;
+        Delaunay mesh = delaunay(*moved);
+        Walls walls = find_walls(*moved, mesh);
+        Filling result = held_filling(*moved, std::move(mesh), std::move(walls));
+        if (body.leave_without_volume(result.tetrahedra, *moved)) continue;
+        result.flipped = true;
+        return result;
+      }
+    } catch (const GeometryError&) {} // it is not recovered when opened either
   return std::nullopt;
 }
 

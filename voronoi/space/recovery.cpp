@@ -53,9 +53,13 @@ public:
     });
     sound_ = sound_ || walls.lost.empty(); // faces of tetrahedra do not cross
     counts.lost = as<int>(walls.lost.size());
-    if (auto opened = filling_of_opened(cloud, walls.lost)) {
-      counts.held = counts.lost;
-      return finish(std::move(*opened));
+    if (faces_touch(cloud, walls.lost)) {
+      auto filled = filling_at_once(cloud, mesh, walls);
+      if (!filled) filled = filling_of_opened(cloud, walls.lost);
+      if (filled) {
+        counts.held = counts.lost;
+        return finish(std::move(*filled));
+      }
     }
     for (int round = 0;; ++round) {
       if (round == most_rounds)
@@ -74,13 +78,16 @@ public:
       }
       Delaunay flipped = mesh;
       counts.held = as<int>(walls.lost.size());
-      walls = hold_facets(cloud, flipped, std::move(walls));
+      HeldFacets held = hold_facets(cloud, flipped, std::move(walls));
+      walls = std::move(held.walls);
       const bool peeled = peel(flipped, walls);
       if (walls.lost.empty()) {
         if (peeled) { // triangulating the cloud anew has to hold its facets
           flipped = mesh;
-          walls = hold_facets(cloud, flipped, find_walls(cloud, flipped));
+          held = hold_facets(cloud, flipped, find_walls(cloud, flipped));
+          walls = std::move(held.walls);
         }
+        if (walls.lost.empty() && !held.at_once) return finish(filling(cloud, std::move(mesh))); // as it does
         if (walls.lost.empty()) return finish(filling(cloud, std::move(flipped), std::move(walls)));
         walls = find_walls(cloud, mesh);
         continue;

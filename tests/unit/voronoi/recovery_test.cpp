@@ -8,6 +8,7 @@
 #include "voronoi/space/crossings.hpp"
 #include "voronoi/space/exact.hpp"
 #include "voronoi/space/filling.hpp"
+#include "voronoi/space/opened.hpp"
 #include "voronoi/space/surface_flips.hpp"
 #include "voronoi/space/triangulate.hpp"
 #include "voronoi/space/winding.hpp"
@@ -88,6 +89,7 @@ TEST(recovery, holds_random_clouds_that_are_sheared_bent_and_turned) {
     RecoveredBoundary body;
     ASSERT_NO_THROW(body = recovered(how));
     expect_filled(body.cloud, body.tetrahedra);
+    EXPECT_EQ(triangulate(body.cloud).node, body.tetrahedra.node);
     lost += body.counts.lost > 0;
     held += body.counts.held > 0;
   }
@@ -121,6 +123,33 @@ TEST(recovery, holds_faces_of_one_body_that_touch) {
     EXPECT_GT(body.counts.held, 20);
     expect_filled(body.cloud, body.tetrahedra);
     EXPECT_EQ(triangulate(body.cloud).node, body.tetrahedra.node);
+  }
+}
+
+/// A notch that is closed at one of its ends: few facets touch, and flips hold them.
+TEST(recovery, flips_a_few_facets_that_touch) {
+  constexpr int cells = 10;
+  const double h = 1.0 / cells, root = h * (cells / 2), upper = root + h;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE(fmt::format("seed {}", seed));
+    Cloud<3> cloud =
+        recovered({.shape = SpaceShape::notch, .cells = cells, .jitter = 0.2, .seed = seed}).cloud;
+    for (Vec3& x : cloud.position)
+      if (x.y() > upper - 0.5 * h)
+        x.y() -= (1.0 - 1e-6) * std::clamp(root - x.x(), 0.0, h) * std::clamp(1.5 - x.z() / h, 0.0, 1.0);
+    flip_surface(cloud, RecoveryRules{}.flat_angle);
+    const Delaunay mesh = delaunay(cloud);
+    Walls walls = find_walls(cloud, mesh);
+    EXPECT_TRUE(faces_touch(cloud, walls.lost));
+    EXPECT_FALSE(faces_touch(cloud, {}));
+    const auto at_once = filling_at_once(cloud, mesh, walls);
+    ASSERT_TRUE(at_once);
+    expect_filled(cloud, at_once->tetrahedra);
+    const RecoveredBoundary body = recover_boundary(cloud);
+    EXPECT_TRUE(body.tetrahedra.node == at_once->tetrahedra.node);
+    EXPECT_TRUE(triangulate(body.cloud).node == body.tetrahedra.node);
+    while (20 * walls.lost.size() <= cloud.facets.size()) walls.lost.push_back(walls.lost.front());
+    EXPECT_FALSE(filling_at_once(cloud, mesh, walls)) << "so many are not tried";
   }
 }
 
