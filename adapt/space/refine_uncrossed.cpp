@@ -7,13 +7,14 @@ namespace cnem::adapt {
 
 UncrossedSurface refine_uncrossed(const Cloud<3>& cloud, const NodeProperties& properties, const Field& size,
                                   const SpaceRules& rules, bool sound) {
-  IndexedVector<NodeIndex, char> held = properties.held;
+  IndexedVector<NodeIndex, char> held = properties.held, crossed(held.size(), 0);
   const PeriodImages images(cloud, rules.periods);
   Field matter(size.size());
   for (std::size_t i = 0; i < matter.size(); ++i) matter[i] = properties.filled(as<NodeIndex>(i));
   constexpr int most = 4;
   for (int n = 0;; ++n) {
     UncrossedSurface result{WorkingSurface(cloud, held, rules.surface), {}, size, {}};
+    result.surface.close(crossed); // what is split between nodes that are held can go into others of them
     if (n == most) {
       result.sound = sound;
       result.changes.into.assign(cloud.position.size(), NodeIndex::none);
@@ -32,6 +33,7 @@ UncrossedSurface refine_uncrossed(const Cloud<3>& cloud, const NodeProperties& p
     const auto pairs =
         sound ? voronoi::crossings(after, result.surface.changed_facets(cloud)) : voronoi::crossings(after);
     if (pairs.empty()) return result;
+    const auto hold = [&](NodeIndex i) { held[i] = crossed[i] = 1; };
     for (const auto& pair : pairs)
       for (const CloudFacetIndex f : pair) {
         // old nodes of the facet and those that its new ones come from
@@ -40,9 +42,9 @@ UncrossedSurface refine_uncrossed(const Cloud<3>& cloud, const NodeProperties& p
           const NodeIndex i = stack.back();
           stack.pop_back();
           if (index_of(i) < held.size()) {
-            held[i] = 1;
+            hold(i);
             result.surface.around(i, [&](auto e) {
-              if (index_of(result.surface.end(e)) < held.size()) held[result.surface.end(e)] = 1;
+              if (index_of(result.surface.end(e)) < held.size()) hold(result.surface.end(e));
             });
           } else {
             const auto& ends = result.changes.made[index_of(i) - held.size()];
@@ -53,7 +55,7 @@ UncrossedSurface refine_uncrossed(const Cloud<3>& cloud, const NodeProperties& p
     for (const NodeIndex i : cloud.position.indices()) { // what has gone into nodes there stays, too
       NodeIndex at = i;
       while (exists(result.changes.into[at])) at = result.changes.into[at];
-      if (index_of(at) < held.size() && held[at]) held[i] = 1;
+      if (index_of(at) < held.size() && crossed[at]) hold(i);
     }
   }
 }

@@ -54,6 +54,13 @@ WorkingSurface::WorkingSurface(const Cloud<3>& cloud, const IndexedVector<NodeIn
   }
 }
 
+void WorkingSurface::close(const IndexedVector<NodeIndex, char>& marks) {
+  for (std::size_t f = 0; f < facet_.size(); ++f)
+    if (const auto& node = facet_[f].node;
+        exists(node[0]) && marks[node[0]] && marks[node[1]] && marks[node[2]])
+      closed_[f] = 1;
+}
+
 WorkingSurface::Corners WorkingSurface::corners(std::size_t facet) const {
   const auto& node = facet_[facet].node;
   return {at(node[0]), at(node[1]), at(node[2])};

@@ -68,6 +68,8 @@ public:
   /// GeometryError as voronoi::surface_edges.
   WorkingSurface(const Cloud<3>& cloud, const IndexedVector<NodeIndex, char>& held,
                  const SurfaceRules& rules = {});
+  /// Facets whose three nodes have a mark are neither split nor flipped from now on.
+  void close(const IndexedVector<NodeIndex, char>& marks);
 
   std::size_t nodes() const { return position_.size(); }
   const Vec3& at(NodeIndex i) const { return position_[i]; }
@@ -160,8 +162,8 @@ private:
   IndexedVector<NodeIndex, char> held_, still_;
   IndexedVector<NodeIndex, Edge> leaving_;
   std::vector<Facet<3>> facet_; ///< node none: gone
-  std::vector<char> closed_;    ///< [facet] the other face of its slit lies on it
-  std::vector<Edge> across_;    ///< [edge]
+  std::vector<char> closed_; ///< [facet] neither split nor flipped, as the other face of its slit lies on it
+  std::vector<Edge> across_; ///< [edge]
 };
 
 } // namespace cnem::adapt
