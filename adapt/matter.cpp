@@ -3,7 +3,6 @@
 #include "voronoi/order.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 namespace cnem::adapt {
 
@@ -99,18 +98,22 @@ IndexedVector<NodeIndex, NodeIndex> numbers_without(const IndexedVector<NodeInde
   return number;
 }
 
-void Matter::drop(const IndexedVector<NodeIndex, char>& gone) {
-  const IndexedVector<NodeIndex, NodeIndex> number = numbers_without(gone);
-  compact(number, node_.mass);
-  compact(number, node_.jacobian);
-  compact(number, node_.density);
-  compact(number, node_.size);
-  compact(number, node_.held);
-  if (!node_.broken.empty()) compact(number, node_.broken);
-  if (!node_.part.empty()) compact(number, node_.part);
-  compact(number, old_of_);
-  compact(number, parcels_);
-  compact(number, labels_);
+void Matter::renumber(const IndexedVector<NodeIndex, NodeIndex>& number) {
+  adapt::renumber(number, node_.mass);
+  adapt::renumber(number, node_.jacobian);
+  adapt::renumber(number, node_.density);
+  adapt::renumber(number, node_.size);
+  adapt::renumber(number, node_.held);
+  if (!node_.broken.empty()) adapt::renumber(number, node_.broken);
+  if (!node_.part.empty()) adapt::renumber(number, node_.part);
+  adapt::renumber(number, old_of_);
+  adapt::renumber(number, parcels_);
+  adapt::renumber(number, labels_);
+}
+
+bool Matter::came_or_went() const {
+  return old_of_.size() != old_nodes_ ||
+         std::find(old_of_.begin(), old_of_.end(), NodeIndex::none) != old_of_.end();
 }
 
 NodeRows Matter::in_order(const IndexedVector<NodeIndex, Row>& rows,
@@ -133,12 +136,8 @@ NodeRows Matter::in_order(const IndexedVector<NodeIndex, Row>& rows,
   return result;
 }
 
-template<int dim> Resampling<dim> Matter::finished(const Cloud<dim>& cloud) const {
-  const bool same = old_of_.size() == old_nodes_ &&
-                    std::find(old_of_.begin(), old_of_.end(), NodeIndex::none) == old_of_.end();
-  std::vector<std::int32_t> order(old_of_.size());
-  std::iota(order.begin(), order.end(), 0);
-  if (!same) order = voronoi::hilbert_order(cloud.position);
+template<int dim>
+Resampling<dim> Matter::finished(const Cloud<dim>& cloud, const std::vector<std::int32_t>& order) const {
   Resampling<dim> result;
   result.cloud = voronoi::renumber(cloud, order);
   result.parcels = in_order(parcels_, order);
@@ -151,7 +150,7 @@ template<int dim> Resampling<dim> Matter::finished(const Cloud<dim>& cloud) cons
   }
   return result;
 }
-template Resampling<2> Matter::finished(const Cloud<2>&) const;
-template Resampling<3> Matter::finished(const Cloud<3>&) const;
+template Resampling<2> Matter::finished(const Cloud<2>&, const std::vector<std::int32_t>&) const;
+template Resampling<3> Matter::finished(const Cloud<3>&, const std::vector<std::int32_t>&) const;
 
 } // namespace cnem::adapt

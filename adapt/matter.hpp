@@ -5,6 +5,7 @@
 #include "core/indexed.hpp"
 #include "core/operators/resampling.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -56,6 +57,8 @@ public:
   }
   /// The number at the start; none: inserted.
   NodeIndex old_of(NodeIndex i) const { return old_of_[i]; }
+  /// Whether there are others than at the start.
+  bool came_or_went() const;
 
   /// Carries matter over. No node may be both at the `from` of one parcel and at the `to` of another.
   void move(const std::vector<Parcel>& parcels);
@@ -66,11 +69,11 @@ protected:
   /// A node without matter, with the mean of labels of others.
   void append(const std::vector<std::pair<NodeIndex, double>>& parents);
   void hold(NodeIndex i, char held) { node_.held[i] = held; }
-  /// Drops nodes: those that stay move up.
-  void drop(const IndexedVector<NodeIndex, char>& gone);
-  /// Everything since construction on a cloud of the present nodes, which are put in space-filling order when
-  /// any came or went.
-  template<int dim> Resampling<dim> finished(const Cloud<dim>& cloud) const;
+  /// New numbers of all nodes, as renumber().
+  void renumber(const IndexedVector<NodeIndex, NodeIndex>& number);
+  /// Everything since construction on a cloud of the present nodes, of which node `new` is order[new] then.
+  template<int dim>
+  Resampling<dim> finished(const Cloud<dim>& cloud, const std::vector<std::int32_t>& order) const;
 
 private:
   Row& row(IndexedVector<NodeIndex, Row>& rows, NodeIndex i);
@@ -84,15 +87,12 @@ private:
 
 /// Numbers after those with a mark have been dropped; none for these.
 IndexedVector<NodeIndex, NodeIndex> numbers_without(const IndexedVector<NodeIndex, char>& gone);
-/// Drops those from a list, [node].
-template<class List> void compact(const IndexedVector<NodeIndex, NodeIndex>& number, List& list) {
-  std::size_t kept = 0;
+/// Puts what a list, [node], has of each to its new number; what has none goes.
+template<class List> void renumber(const IndexedVector<NodeIndex, NodeIndex>& number, List& list) {
+  List kept(index_of(std::count_if(number.begin(), number.end(), [](NodeIndex i) { return exists(i); })));
   for (std::size_t i = 0; i < number.size(); ++i)
-    if (exists(number[i])) {
-      if (kept != i) list[kept] = std::move(list[i]);
-      ++kept;
-    }
-  list.resize(kept);
+    if (const NodeIndex n = number[as<NodeIndex>(i)]; exists(n)) kept[index_of(n)] = std::move(list[i]);
+  list = std::move(kept);
 }
 
 } // namespace cnem::adapt

@@ -236,14 +236,14 @@ IndexedVector<NodeIndex, NodeIndex> WorkingCloud::drop(const IndexedVector<NodeI
     if (exists(i)) i = number[i];
   };
   begin_with({}, {});
-  Matter::drop(gone);
-  compact(number, cloud_.position);
-  if (!cloud_.body.empty()) compact(number, cloud_.body);
+  Matter::renumber(number);
+  adapt::renumber(number, cloud_.position);
+  if (!cloud_.body.empty()) adapt::renumber(number, cloud_.body);
   for (auto* list : {&next_, &previous_, &facing_}) {
-    compact(number, *list);
+    adapt::renumber(number, *list);
     for (NodeIndex& i : *list) rename(i);
   }
-  compact(number, piece_);
+  adapt::renumber(number, piece_);
   for (NodeIndex& i : loop_) rename(i);
   std::erase_if(cloud_.twins, [&](const auto& pair) { return gone[pair[0]] || gone[pair[1]]; });
   for (auto& pair : cloud_.twins)
@@ -270,6 +270,11 @@ void WorkingCloud::refresh_facets() {
   }
 }
 
-Resampling<2> WorkingCloud::finish() { return Matter::finished(cloud_); }
+Resampling<2> WorkingCloud::finish() {
+  std::vector<std::int32_t> order(size());
+  std::iota(order.begin(), order.end(), 0);
+  if (came_or_went()) order = voronoi::hilbert_order(cloud_.position);
+  return Matter::finished(cloud_, order);
+}
 
 } // namespace cnem::adapt

@@ -35,21 +35,9 @@ class Layer {
 public:
   Layer(WorkingBody& body, SpaceStructure& structure, const SpaceRules& rules, PassReport& report)
       : body_(body), structure_(structure), rules_(rules), report_(report), cloud_(body.cloud()),
-        images_(cloud_, rules.periods), periods_of_(cloud_.position.size(), 0),
-        on_boundary_(cloud_.position.size(), 0) {
+        images_(cloud_, rules.periods), periods_of_(cloud_.position.size(), 0) {
     for (const std::vector<NodeIndex>& group : images_.groups())
       for (const NodeIndex i : group) periods_of_[i] = group.size() - 1;
-    for (const CloudFacetIndex f : cloud_.facets.indices()) {
-      const Corners& node = cloud_.facets[f].node;
-      if (rules.surface.is_still(cloud_.facets[f].piece)) sides_.emplace_back(sorted(node), f);
-      for (std::size_t k = 0; k < 3; ++k) {
-        const NodeIndex a = node[k], b = node[(k + 1) % 3];
-        on_boundary_[a] = 1;
-        edges_.emplace_back(std::min(a, b), std::max(a, b));
-      }
-    }
-    std::sort(sides_.begin(), sides_.end());
-    std::sort(edges_.begin(), edges_.end());
     owner_.resize(cloud_.facets.size());
     for (const SimplexIndex t : structure.mesh.node.indices())
       for (std::size_t k = 0; k < 4; ++k)
@@ -76,14 +64,30 @@ public:
   }
 
 private:
+  /// The first facet round a node that is as wanted; none: there is no such.
+  template<class Wanted> CloudFacetIndex facet_at(NodeIndex i, const Wanted& wanted) const {
+    for (const SimplexIndex t : structure_.tetrahedra.of(i))
+      for (std::size_t k = 0; k < 4; ++k)
+        if (const CloudFacetIndex f = structure_.mesh.facet[t][k];
+            exists(f) && structure_.mesh.node[t][k] != i && wanted(cloud_.facets[f]))
+          return f;
+    return CloudFacetIndex::none;
+  }
+
+  bool is_on_boundary(NodeIndex i) const {
+    return exists(facet_at(i, [](const Facet<3>&) { return true; }));
+  }
+
   bool is_boundary_edge(NodeIndex i, NodeIndex k) const {
-    return std::binary_search(edges_.begin(), edges_.end(), std::pair(std::min(i, k), std::max(i, k)));
+    return exists(facet_at(i, [&](const Facet<3>& facet) {
+      return std::find(facet.node.begin(), facet.node.end(), k) != facet.node.end();
+    }));
   }
 
   CloudFacetIndex side_facet(const Corners& corner) const {
-    const std::pair wanted(sorted(corner), as<CloudFacetIndex>(0));
-    const auto found = std::lower_bound(sides_.begin(), sides_.end(), wanted);
-    return found != sides_.end() && found->first == wanted.first ? found->second : CloudFacetIndex::none;
+    return facet_at(corner[0], [&](const Facet<3>& facet) {
+      return rules_.surface.is_still(facet.piece) && sorted(facet.node) == sorted(corner);
+    });
   }
 
   bool are_linked(NodeIndex i, NodeIndex k) const {
@@ -118,7 +122,7 @@ private:
     }
     if (sides.empty() || inner.empty()) return false;
     // here
-    if (on.size() == 1 && on_boundary_[node[on[0]]]) return false;
+    if (on.size() == 1 && is_on_boundary(node[on[0]])) return false;
     if (on.size() == 2 && is_boundary_edge(node[on[0]], node[on[1]])) return false;
     if (on.size() == 3) {
       move.emptied = node[inner[0]];
@@ -191,7 +195,7 @@ private:
     const IndexedVector<NodeIndex, NodeIndex> number = numbers_without(gone);
     body_.set_boundary(std::move(kept));
     body_.move(parcels);
-    body_.drop(gone);
+    body_.renumber(number);
     mesh.of_node.assign(body_.size(), SimplexIndex::none);
     for (const SimplexIndex t : mesh.node.indices())
       for (std::size_t k = 0; k < 4; ++k) {
@@ -243,9 +247,6 @@ private:
   const Cloud<3>& cloud_;
   const PeriodImages images_;
   IndexedVector<NodeIndex, std::size_t> periods_of_; ///< that a node is on, or one that is its image
-  IndexedVector<NodeIndex, char> on_boundary_;
-  std::vector<std::pair<Corners, CloudFacetIndex>> sides_; ///< facets of sides by their nodes
-  std::vector<std::pair<NodeIndex, NodeIndex>> edges_;     ///< of the boundary
   IndexedVector<CloudFacetIndex, std::pair<SimplexIndex, std::size_t>>
       owner_; ///< whose face it is, and which
 };

@@ -134,9 +134,9 @@ std::vector<Removal> crowded(const WorkingBody& body, const std::vector<Removal>
 
 namespace {
 
-/// Inner nodes with too little volume, no two beside each other.
-std::vector<Removal> dense(const WorkingBody& body, const SpaceStructure& structure,
-                           const SpaceThresholds& limits) {
+/// Adds to those that go inner nodes with too little volume, none of them beside another that goes. How many.
+int add_dense(const WorkingBody& body, const SpaceStructure& structure, const SpaceThresholds& limits,
+              std::vector<Removal>& list) {
   const IndexedVector<NodeIndex, char> boundary = on_boundary(body);
   std::vector<std::pair<double, NodeIndex>> order;
   for (const NodeIndex i : body.nodes()) {
@@ -146,7 +146,11 @@ std::vector<Removal> dense(const WorkingBody& body, const SpaceStructure& struct
   }
   std::sort(order.begin(), order.end());
   IndexedVector<NodeIndex, char> touched(body.size(), 0);
-  std::vector<Removal> list;
+  for (const Removal& removal : list) {
+    touched[removal.gone] = 1;
+    for (const NodeIndex k : structure.neighbours(removal.gone)) touched[k] = 1;
+  }
+  const std::size_t before = list.size();
   for (const auto& [share, i] : order) {
     if (touched[i]) continue;
     NodeIndex nearest = NodeIndex::none;
@@ -158,7 +162,7 @@ std::vector<Removal> dense(const WorkingBody& body, const SpaceStructure& struct
     }
     list.push_back({i, nearest});
   }
-  return list;
+  return static_cast<int>(list.size() - before);
 }
 
 struct Gap {
@@ -185,30 +189,32 @@ std::vector<Gap> gaps(const WorkingBody& body, const SpaceStructure& structure, 
 
 } // namespace
 
-bool fill(WorkingBody& body, SpaceStructure& structure, const SpaceRules& rules, PassReport& report) {
+bool fill(WorkingBody& body, SpaceStructure& structure, const std::vector<Removal>& list,
+          const SpaceRules& rules, PassReport& report) {
   const SpaceThresholds& limits = rules.thresholds;
-  const std::vector<Removal> going = dense(body, structure, limits);
-  report.removed += static_cast<int>(going.size());
-  const std::vector<Gap> list = gaps(body, structure, limits.long_edge);
-  if (list.empty() && going.empty()) return false;
+  std::vector<Removal> going = list;
+  report.removed += add_dense(body, structure, limits, going);
+  const std::vector<Gap> long_edges = gaps(body, structure, limits.long_edge);
+  if (long_edges.empty() && going.empty()) return false;
   // where new nodes might come, by which facets are asked who is in their way
   std::vector<Vec3> place;
-  for (const Gap& gap : list) place.push_back(gap.x);
+  for (const Gap& gap : long_edges) place.push_back(gap.x);
   IndexedVector<NodeIndex, char> barred(place.size(), 0); // by number of the gap
   const double spacing = mean_spacing(body);
   const NodeGrid places(place, spacing);
   for (const auto& facet : body.cloud().facets) {
     const Guarded guarded(body, facet, limits.clear_facet);
     places.near(guarded.centre, guarded.reach(), [&](NodeIndex g, double) {
-      if (body.cloud().one_body(facet.node[0], list[index_of(g)].a) && guarded.too_near(place[index_of(g)]))
+      if (body.cloud().one_body(facet.node[0], long_edges[index_of(g)].a) &&
+          guarded.too_near(place[index_of(g)]))
         barred[g] = 1;
     });
   }
   const auto position = body.cloud().position; // a copy: insertions move the others in memory
   const NodeGrid nodes(position, spacing);
   const std::size_t before = body.size();
-  for (std::size_t g = 0; g < list.size(); ++g) {
-    const Gap& gap = list[g];
+  for (std::size_t g = 0; g < long_edges.size(); ++g) {
+    const Gap& gap = long_edges[g];
     if (barred[g]) continue;
     const double clear = limits.clear_node * body.size_between(gap.a, gap.b);
     bool free = true;

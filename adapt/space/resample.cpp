@@ -8,6 +8,7 @@
 #include "core/geometry/mates.hpp"
 #include "core/geometry/place_text.hpp"
 #include "core/index.hpp"
+#include "voronoi/order.hpp"
 #include "voronoi/space/bodies.hpp"
 #include "voronoi/space/crossings.hpp"
 #include "voronoi/space/recovery.hpp"
@@ -166,13 +167,34 @@ void restore_volume(WorkingBody& body, const IndexedVector<CloudFacetIndex, Face
 
 } // namespace
 
+namespace {
+
+/// New numbers without those that go, along a space-filling curve when any came or went.
+IndexedVector<NodeIndex, NodeIndex> numbers_in_order(const WorkingBody& body,
+                                                     const IndexedVector<NodeIndex, char>& gone) {
+  IndexedVector<NodeIndex, NodeIndex> number = numbers_without(gone);
+  if (!body.came_or_went() && std::find(gone.begin(), gone.end(), 1) == gone.end()) return number;
+  std::vector<NodeIndex> left;
+  std::vector<Vec3> place;
+  for (const NodeIndex i : body.nodes())
+    if (exists(number[i])) {
+      left.push_back(i);
+      place.push_back(body.at(i));
+    }
+  const std::vector<std::int32_t> order = voronoi::hilbert_order(place);
+  for (std::size_t n = 0; n < order.size(); ++n) number[left[index_of(order[n])]] = as<NodeIndex>(n);
+  return number;
+}
+
+} // namespace
+
 void remove(WorkingBody& body, SpaceStructure& structure, const std::vector<Removal>& list,
             const SpaceRules& rules, PassReport& report) {
   IndexedVector<NodeIndex, char> gone(body.size(), 0);
   for (const Removal& removal : list) gone[removal.gone] = 1;
   WorkingBody left = body;
-  left.drop(gone);
-  IndexedVector<NodeIndex, NodeIndex> number = numbers_without(gone);
+  IndexedVector<NodeIndex, NodeIndex> number = numbers_in_order(body, gone);
+  left.renumber(number);
   const double volume = enclosed_measure(body.cloud());
   voronoi::RecoveredBoundary recovered;
   constexpr int times = 3;
@@ -183,7 +205,7 @@ void remove(WorkingBody& body, SpaceStructure& structure, const std::vector<Remo
       if (exists(i)) i = recovered.now[i];
     IndexedVector<NodeIndex, char> lost(left.size(), 0);
     for (const NodeIndex i : left.nodes()) lost[i] = !exists(recovered.now[i]);
-    left.drop(lost);
+    left.renumber(numbers_without(lost));
     constexpr double little = 1e-9; // of the body
     const double gained = enclosed_measure(recovered.cloud) - volume;
     if (n + 1 == times || std::abs(gained) < little * volume) break;
@@ -194,14 +216,12 @@ void remove(WorkingBody& body, SpaceStructure& structure, const std::vector<Remo
     if (exists(number[i])) body.place(i, recovered.cloud.position[number[i]]);
     if (gone[i] || exists(number[i])) continue;
     all.push_back({i, nearest_left(body, number, i)});
-    gone[i] = 1;
     ++report.removed;
   }
   structure = structure_of(recovered.cloud, std::move(recovered.tetrahedra), rules.cells);
-  structure.held = recovered.counts.held;
   structure.flipped = recovered.flipped;
   body.move(inheritance(body, structure, all, number));
-  body.drop(gone);
+  body.renumber(number);
   body.set_boundary(std::move(recovered.cloud.facets));
   body.set_sound(); // facets are faces of tetrahedra
   endow(body, structure);
@@ -281,13 +301,17 @@ Resampling<3> attempt(const Cloud<3>& cloud, NodeProperties properties, const Fi
   remove(body, structure, list, rules, report);
   if (const int cuts = report.cuts; separate(body, structure, rules.separation, report), report.cuts > cuts)
     remove(body, structure, crowded(body, {}, limits, report), rules, report);
-  if (recut && recut_sides(body, structure, rules, report))
-    remove(body, structure, crowded(body, {}, limits, report), rules, report);
-  for (int round = 0; round < limits.rounds; ++round)
-    if (!fill(body, structure, rules, report)) break;
+  bool stale = recut && recut_sides(body, structure, rules, report);
+  list = stale ? crowded(body, {}, limits, report) : std::vector<Removal>{};
+  for (int round = 0; round < limits.rounds; ++round) {
+    if (!fill(body, structure, list, rules, report)) break;
+    stale = false;
+    list.clear();
+  }
+  if (stale) remove(body, structure, {}, rules, report);
   balance(body, structure, {limits.light, limits.heavy, limits.sweeps}, report);
   Resampling<3> change = body.finish(structure);
-  if (structure.held > 0) { // whoever triangulates has to find a way to hold them too
+  if (change.cloud.simplices.empty()) { // whoever triangulates has to find a way to hold them too
     try {
       voronoi::Tetrahedra mesh = voronoi::triangulate(change.cloud);
       change.cloud.simplices = std::move(mesh.node);

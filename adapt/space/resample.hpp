@@ -62,9 +62,10 @@ std::vector<Removal> crowded(const WorkingBody& body, const std::vector<Removal>
 /// changes is given back.
 void remove(WorkingBody& body, SpaceStructure& structure, const std::vector<Removal>& list,
             const SpaceRules& rules, PassReport& report);
-/// One round of insertion in the middle of long edges, and of removal of inner nodes with too little volume;
-/// false when there was nothing to do.
-bool fill(WorkingBody& body, SpaceStructure& structure, const SpaceRules& rules, PassReport& report);
+/// One round of insertion in the middle of long edges, and of removal of inner nodes with too little volume,
+/// and of those of a list; false when there was nothing to do.
+bool fill(WorkingBody& body, SpaceStructure& structure, const std::vector<Removal>& list,
+          const SpaceRules& rules, PassReport& report);
 
 /// Matter for the nodes that have none: from neighbours that have more matter than volume, else evenly.
 void endow(WorkingBody& body, const SpaceStructure& structure);

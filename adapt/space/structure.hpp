@@ -14,7 +14,6 @@ struct SpaceStructure {
   CellLists<SimplexIndex> tetrahedra; ///< of each node
   CellLists<NodeIndex> linked;        ///< ends of the edges of each node
   Field cell;                         ///< [node] m³
-  int held = 0;                       ///< facets that the Delaunay triangulation does not have
   bool flipped = false;               ///< as of voronoi::RecoveredBoundary
 
   double volume(NodeIndex i) const { return cell[index_of(i)]; }

@@ -54,11 +54,11 @@ public:
   bool sound() const { return sound_; }
   void set_sound() { sound_ = true; }
 
-  /// Drops nodes that have no matter left, and that no facet has; renumbers.
-  void drop(const IndexedVector<NodeIndex, char>& gone);
+  /// New numbers of all nodes; those that have none go, which have no matter left, and no facet.
+  void renumber(const IndexedVector<NodeIndex, NodeIndex>& number);
 
-  /// Everything since construction, with the nodes in space-filling order when any came or went. The
-  /// tetrahedra of the structure go with the cloud where they are those that triangulating it gives.
+  /// Everything since construction. The tetrahedra of the structure go with the cloud where they are those
+  /// that triangulating it gives: not where some were flipped while bodies that are apart now were one.
   Resampling<3> finish(const SpaceStructure& structure) const;
 
 private:

@@ -105,6 +105,10 @@ PassReport pass(FollowedBody& body) {
   EXPECT_TRUE(voronoi::crossings(body.cloud).empty());
   const SpaceStructure structure =
       structure_of(body.cloud, voronoi::triangulate(body.cloud), body.rules.cells);
+  Cloud<3> anew = body.cloud;
+  anew.simplices.clear();
+  anew.across.clear();
+  EXPECT_EQ(voronoi::triangulate(anew).node, structure.mesh.node);
   for (std::size_t i = 0; i < body.mass.size(); ++i) {
     const double ratio = 2.0 * structure.cell[i] / (body.mass[i] * body.jacobian[i]);
     EXPECT_GT(ratio, 0.79) << i;
