@@ -14,7 +14,7 @@ UncrossedSurface refine_uncrossed(const Cloud<3>& cloud, const NodeProperties& p
   constexpr int most = 4;
   for (int n = 0;; ++n) {
     UncrossedSurface result{WorkingSurface(cloud, held, rules.surface), {}, size, {}};
-    result.surface.close(crossed); // what is split between nodes that are held can go into others of them
+    result.surface.hold_between(crossed);
     if (n == most) {
       result.sound = sound;
       result.changes.into.assign(cloud.position.size(), NodeIndex::none);

@@ -1,9 +1,11 @@
 #include "adapt/space/sharp_creases.hpp"
+#include "core/index.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 namespace cnem::adapt {
 
@@ -22,6 +24,40 @@ double acuteness(const WorkingSurface& surface, Edge e) {
   return turn.norm() / lengths;
 }
 
+struct AcuteEdge {
+  NodeIndex start, end;
+  double sine, length; ///< of the angle; m
+};
+
+/// Edges with acute angles, but for those of folds: which hang together over less than `least` h.
+std::vector<AcuteEdge> long_acute_edges(const WorkingSurface& surface, const Field& wanted) {
+  constexpr double least = 3.0;
+  std::vector<AcuteEdge> list;
+  for (Edge e = 0; e < surface.edges(); ++e) {
+    if (!surface.alive(e) || e > surface.across(e) || surface.is_still(surface.piece(e)) ||
+        surface.is_still(surface.piece(surface.across(e)))) // metal goes on beyond a period
+      continue;
+    if (const double sine = acuteness(surface, e); sine < 1.0)
+      list.push_back({surface.start(e), surface.end(e), sine, surface.length(e)});
+  }
+  std::vector<NodeIndex> first(wanted.size()); // of what hangs together with a node
+  for (std::size_t i = 0; i < first.size(); ++i) first[i] = as<NodeIndex>(i);
+  const auto root = [&](NodeIndex i) {
+    while (first[index_of(i)] != i) i = first[index_of(i)] = first[index_of(first[index_of(i)])];
+    return i;
+  };
+  for (const AcuteEdge& edge : list) {
+    const NodeIndex a = root(edge.start), b = root(edge.end);
+    first[index_of(std::max(a, b))] = std::min(a, b);
+  }
+  Field length(wanted.size(), 0.0); // in h, by root
+  for (const AcuteEdge& edge : list)
+    length[index_of(root(edge.start))] +=
+        2.0 * edge.length / (wanted[index_of(edge.start)] + wanted[index_of(edge.end)]);
+  std::erase_if(list, [&](const AcuteEdge& edge) { return length[index_of(root(edge.start))] < least; });
+  return list;
+}
+
 } // namespace
 
 Field spacing_at_sharp_creases(const WorkingSurface& surface, const Field& wanted) {
@@ -33,12 +69,9 @@ Field spacing_at_sharp_creases(const WorkingSurface& surface, const Field& wante
     factor[index_of(i)] = to;
     widened = true;
   };
-  for (Edge e = 0; e < surface.edges(); ++e) {
-    if (!surface.alive(e) || surface.is_still(surface.piece(e)) ||
-        surface.is_still(surface.piece(surface.across(e)))) // metal goes on beyond a period
-      continue;
-    const double at_crease = 1.0 / std::max(acuteness(surface, e), 1.0 / widest);
-    for (const NodeIndex i : {surface.start(e), surface.end(e)}) widen(i, at_crease);
+  for (const AcuteEdge& acute : long_acute_edges(surface, wanted)) {
+    const double at_crease = 1.0 / std::max(acute.sine, 1.0 / widest);
+    for (const NodeIndex i : {acute.start, acute.end}) widen(i, at_crease);
   }
   while (std::exchange(widened, false))
     for (Edge e = 0; e < surface.edges(); ++e) {

@@ -34,8 +34,9 @@ WorkingSurface::WorkingSurface(const Cloud<3>& cloud, const IndexedVector<NodeIn
                                const SurfaceRules& rules)
     : rules_(rules), least_crease_(cosine(rules.crease)), least_corner_(cosine(rules.corner)),
       least_turn_(cosine(rules.turn)), least_flat_(cosine(rules.flat)), position_(cloud.position),
-      held_(held), still_(cloud.position.size(), 0), leaving_(cloud.position.size(), no_edge),
-      facet_(cloud.facets.begin(), cloud.facets.end()), closed_(cloud.facets.size(), 0) {
+      held_(held), holds_(cloud.position.size(), 0), still_(cloud.position.size(), 0),
+      leaving_(cloud.position.size(), no_edge), facet_(cloud.facets.begin(), cloud.facets.end()),
+      closed_(cloud.facets.size(), 0) {
   assert(held.size() == cloud.position.size());
   const voronoi::SurfaceEdges across = voronoi::surface_edges(cloud);
   across_.reserve(3 * across.size());
@@ -52,13 +53,6 @@ WorkingSurface::WorkingSurface(const Cloud<3>& cloud, const IndexedVector<NodeIn
     closed_[index_of(f)] = 1;
     for (const NodeIndex i : cloud.facets[f].node) held_[i] = 1;
   }
-}
-
-void WorkingSurface::close(const IndexedVector<NodeIndex, char>& marks) {
-  for (std::size_t f = 0; f < facet_.size(); ++f)
-    if (const auto& node = facet_[f].node;
-        exists(node[0]) && marks[node[0]] && marks[node[1]] && marks[node[2]])
-      closed_[f] = 1;
 }
 
 WorkingSurface::Corners WorkingSurface::corners(std::size_t facet) const {
@@ -182,9 +176,10 @@ SurfaceChange WorkingSurface::split(Edge e, const Vec3& x) {
   const Edge back = across(e);
   const std::size_t f = index_of(e / 3), g = index_of(back / 3);
   if (closed_[f] || closed_[g]) return {Refusal::held};
-  const NodeIndex b = end(e), c = apex(e), d = apex(back), made = position_.next();
+  const NodeIndex a = start(e), b = end(e), c = apex(e), d = apex(back), made = position_.next();
   position_.push_back(x);
-  held_.push_back(0);
+  held_.push_back(holds_[a] && holds_[b]);
+  holds_.push_back(char{held_[made]});
   still_.push_back(is_still(facet_[f].piece) || is_still(facet_[g].piece));
   const Edge after = across(next_edge(e)), before = across(last_edge(back));
   const Edge one = add_facet({{made, b, c}, facet_[f].piece});

@@ -68,8 +68,9 @@ public:
   /// GeometryError as voronoi::surface_edges.
   WorkingSurface(const Cloud<3>& cloud, const IndexedVector<NodeIndex, char>& held,
                  const SurfaceRules& rules = {});
-  /// Facets whose three nodes have a mark are neither split nor flipped from now on.
-  void close(const IndexedVector<NodeIndex, char>& marks);
+  /// New nodes between two that have a mark are held, too: the surface between held nodes is as it was then,
+  /// where others could go into these.
+  void hold_between(const IndexedVector<NodeIndex, char>& marks) { holds_ = marks; }
 
   std::size_t nodes() const { return position_.size(); }
   const Vec3& at(NodeIndex i) const { return position_[i]; }
@@ -159,11 +160,11 @@ private:
   SurfaceRules rules_;
   double least_crease_, least_corner_, least_turn_, least_flat_; ///< cosines
   IndexedVector<NodeIndex, Vec3> position_;
-  IndexedVector<NodeIndex, char> held_, still_;
+  IndexedVector<NodeIndex, char> held_, holds_, still_;
   IndexedVector<NodeIndex, Edge> leaving_;
   std::vector<Facet<3>> facet_; ///< node none: gone
-  std::vector<char> closed_; ///< [facet] neither split nor flipped, as the other face of its slit lies on it
-  std::vector<Edge> across_; ///< [edge]
+  std::vector<char> closed_;    ///< [facet] the other face of its slit lies on it
+  std::vector<Edge> across_;    ///< [edge]
 };
 
 } // namespace cnem::adapt

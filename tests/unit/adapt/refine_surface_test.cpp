@@ -106,6 +106,18 @@ Cloud<3> with_needle(int cells, double thin, double high) {
 }
 
 // Metal that was drawn out into a needle bears nothing and holds the step: its end goes.
+// The edges of a needle of three sides are acute, and so short as those of a fold where the needle is.
+TEST(RefineSurface, spacing_is_as_wanted_at_folds) {
+  const auto widest = [](double high) {
+    const Cloud<3> cloud = with_needle(6, 0.2, high);
+    const Field wanted(cloud.position.size(), 1.0 / 6);
+    const Field spacing = spacing_at_sharp_creases(loose_surface_of(cloud), wanted);
+    return *std::max_element(spacing.begin(), spacing.end()) / wanted[0];
+  };
+  EXPECT_EQ(widest(0.5), 1.0);
+  EXPECT_GT(widest(2.0), 1.05);
+}
+
 TEST(RefineSurface, needles_lose_their_end) {
   constexpr int cells = 6;
   constexpr double h = 1.0 / cells;
