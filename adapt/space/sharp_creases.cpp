@@ -26,19 +26,18 @@ double acuteness(const WorkingSurface& surface, Edge e) {
 
 struct AcuteEdge {
   NodeIndex start, end;
-  double sine, length; ///< of the angle; m
+  double sine;   ///< of the angle
+  double length; ///< h, of all acute edges that hang together with it
 };
 
-/// Edges with acute angles, but for those of folds: which hang together over less than `least` h.
-std::vector<AcuteEdge> long_acute_edges(const WorkingSurface& surface, const Field& wanted) {
-  constexpr double least = 3.0;
+std::vector<AcuteEdge> acute_edges(const WorkingSurface& surface, const Field& wanted) {
   std::vector<AcuteEdge> list;
   for (Edge e = 0; e < surface.edges(); ++e) {
     if (!surface.alive(e) || e > surface.across(e) || surface.is_still(surface.piece(e)) ||
         surface.is_still(surface.piece(surface.across(e)))) // metal goes on beyond a period
       continue;
     if (const double sine = acuteness(surface, e); sine < 1.0)
-      list.push_back({surface.start(e), surface.end(e), sine, surface.length(e)});
+      list.push_back({surface.start(e), surface.end(e), sine, 0.0});
   }
   std::vector<NodeIndex> first(wanted.size()); // of what hangs together with a node
   for (std::size_t i = 0; i < first.size(); ++i) first[i] = as<NodeIndex>(i);
@@ -50,11 +49,11 @@ std::vector<AcuteEdge> long_acute_edges(const WorkingSurface& surface, const Fie
     const NodeIndex a = root(edge.start), b = root(edge.end);
     first[index_of(std::max(a, b))] = std::min(a, b);
   }
-  Field length(wanted.size(), 0.0); // in h, by root
+  Field length(wanted.size(), 0.0); // by root
   for (const AcuteEdge& edge : list)
-    length[index_of(root(edge.start))] +=
-        2.0 * edge.length / (wanted[index_of(edge.start)] + wanted[index_of(edge.end)]);
-  std::erase_if(list, [&](const AcuteEdge& edge) { return length[index_of(root(edge.start))] < least; });
+    length[index_of(root(edge.start))] += 2.0 * surface.length(surface.between(edge.start, edge.end)) /
+                                          (wanted[index_of(edge.start)] + wanted[index_of(edge.end)]);
+  for (AcuteEdge& edge : list) edge.length = length[index_of(root(edge.start))];
   return list;
 }
 
@@ -69,8 +68,8 @@ Field spacing_at_sharp_creases(const WorkingSurface& surface, const Field& wante
     factor[index_of(i)] = to;
     widened = true;
   };
-  for (const AcuteEdge& acute : long_acute_edges(surface, wanted)) {
-    const double at_crease = 1.0 / std::max(acute.sine, 1.0 / widest);
+  for (const AcuteEdge& acute : acute_edges(surface, wanted)) {
+    const double at_crease = std::min({1.0 / acute.sine, widest, acute.length});
     for (const NodeIndex i : {acute.start, acute.end}) widen(i, at_crease);
   }
   while (std::exchange(widened, false))

@@ -78,17 +78,23 @@ public:
       }
       Delaunay flipped = mesh;
       counts.held = as<int>(walls.lost.size());
+      std::vector<CloudFacetIndex> lost = walls.lost;
       HeldFacets held = hold_facets(cloud, flipped, std::move(walls));
       walls = std::move(held.walls);
       const bool peeled = peel(flipped, walls);
       if (walls.lost.empty()) {
         if (peeled) { // triangulating the cloud anew has to hold its facets
           flipped = mesh;
-          held = hold_facets(cloud, flipped, find_walls(cloud, flipped));
+          walls = find_walls(cloud, flipped);
+          lost = walls.lost;
+          held = hold_facets(cloud, flipped, std::move(walls));
           walls = std::move(held.walls);
         }
-        if (walls.lost.empty() && !held.at_once) return finish(filling(cloud, std::move(mesh))); // as it does
-        if (walls.lost.empty()) return finish(filling(cloud, std::move(flipped), std::move(walls)));
+        if (walls.lost.empty()) {
+          const bool other_way = !held.at_once || faces_touch(cloud, lost); // that it may go
+          return finish(other_way ? filling(cloud, std::move(mesh))
+                                  : filling(cloud, std::move(flipped), std::move(walls)));
+        }
         walls = find_walls(cloud, mesh);
         continue;
       }
