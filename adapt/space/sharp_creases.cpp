@@ -61,6 +61,7 @@ std::vector<AcuteEdge> acute_edges(const WorkingSurface& surface, const Field& w
 
 Field spacing_at_sharp_creases(const WorkingSurface& surface, const Field& wanted) {
   constexpr double widest = 4.0, growth = 0.5; // over h, and for each length that is as long
+  constexpr double per_length = 2.0;           // of a crease
   Field factor(wanted.size(), 1.0);
   bool widened = false;
   const auto widen = [&](NodeIndex i, double to) {
@@ -69,7 +70,7 @@ Field spacing_at_sharp_creases(const WorkingSurface& surface, const Field& wante
     widened = true;
   };
   for (const AcuteEdge& acute : acute_edges(surface, wanted)) {
-    const double at_crease = std::min({1.0 / acute.sine, widest, acute.length});
+    const double at_crease = std::min({1.0 / acute.sine, widest, per_length * acute.length});
     for (const NodeIndex i : {acute.start, acute.end}) widen(i, at_crease);
   }
   while (std::exchange(widened, false))
