@@ -143,12 +143,12 @@ bool apart(std::vector<std::vector<NodeIndex>> beside) {
 
 } // namespace
 
-bool AlikeEdits::may_collapse(const std::vector<Edge>& all, double spacing) const {
+bool AlikeEdits::may_collapse(const std::vector<Edge>& all, double spacing, Collapse kind) const {
   if (all.size() < 2) return !all.empty();
   std::vector<std::vector<NodeIndex>> beside;
   for (const Edge e : all) {
     Vec3 to;
-    if (!surface_->try_collapse(e, spacing, to).done()) return false;
+    if (!surface_->try_collapse(e, spacing, to, kind).done()) return false;
     auto& nodes = beside.emplace_back();
     for (const NodeIndex i : {surface_->start(e), surface_->end(e)})
       surface_->around(i, [&](Edge k) { nodes.push_back(surface_->end(k)); });

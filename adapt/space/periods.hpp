@@ -52,7 +52,7 @@ public:
   std::vector<Split> split(Edge e);
   /// Whether collapse() or flip() does all of these edges, which are images of each other, whatever the
   /// order.
-  bool may_collapse(const std::vector<Edge>& all, double spacing) const;
+  bool may_collapse(const std::vector<Edge>& all, double spacing, Collapse kind = Collapse::in_shape) const;
   bool may_flip(const std::vector<Edge>& all, double spacing) const;
 
 private:

@@ -204,7 +204,12 @@ private:
     surface_.around(i, [&](Edge e) { ways.push_back({surface_.length(e), i, surface_.end(e)}); });
     std::sort(ways.begin(), ways.end());
     return std::any_of(ways.begin(), ways.end(), [&](const Candidate& way) {
-      return collapse(surface_.between(i, way.end), size_[index_of(i)], kind);
+      const std::vector<Edge> all = alike_.edges(surface_.between(i, way.end));
+      const double spacing = size_[index_of(i)];
+      if (!alike_.may_collapse(all, spacing, kind)) return false;
+      bool done = false;
+      for (const Edge k : all) done |= collapse(k, spacing, kind);
+      return done;
     });
   }
 

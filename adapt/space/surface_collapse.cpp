@@ -18,8 +18,8 @@ Refusal WorkingSurface::may_collapse(Edge e, double spacing, Collapse kind) cons
   constexpr double one = 0.1; // h: folds so near to each other are one
   const bool folds_meet = length(e) < one * spacing && of_folds(gone);
   if (kind != Collapse::in_shape) {
-    if (!holds_less(gone, spacing, kind == Collapse::of_tip ? rules_.tip : rules_.volume))
-      return Refusal::corner;
+    if (!holds_less(gone, spacing, kind)) return Refusal::corner;
+    if (!of_folds(gone) && !crease(e)) return Refusal::crease;
   } else if (corner(gone)) {
     if (!folds_meet || !corner(stays)) return Refusal::corner;
   } else if (on_crease(gone) && !crease(e) && !(folds_meet && on_crease(stays))) {
@@ -43,13 +43,17 @@ double WorkingSurface::volume_towards(NodeIndex gone, NodeIndex stays) const {
 }
 
 bool WorkingSurface::is_tip(NodeIndex i, double spacing) const {
-  return on_surface(i) && corner(i) && holds_less(i, spacing, rules_.tip);
+  return on_surface(i) && corner(i) && holds_less(i, spacing, Collapse::of_tip);
 }
 
-bool WorkingSurface::holds_less(NodeIndex i, double spacing, double most) const {
-  if (!on_surface(i) || held(i) || still(i) || !of_folds(i)) return false;
+bool WorkingSurface::holds_less(NodeIndex i, double spacing, Collapse kind) const {
+  if (!on_surface(i) || held(i)) return false;
+  const bool at_border = kind == Collapse::of_light && still(i) && pieces_meet(i) == 2;
+  if (!at_border && (still(i) || !of_folds(i))) return false;
+  const double most = kind == Collapse::of_tip ? rules_.tip : rules_.volume;
   bool less = true;
   around(i, [&](Edge e) {
+    if (at_border && piece(e) == piece(across(e))) return; // no way that it may go
     less = less && std::abs(volume_towards(i, end(e))) < most * spacing * spacing * spacing;
   });
   return less;

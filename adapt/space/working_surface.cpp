@@ -106,6 +106,12 @@ bool WorkingSurface::of_folds(NodeIndex i) const {
   return all;
 }
 
+int WorkingSurface::pieces_meet(NodeIndex i) const {
+  int count = 0;
+  around(i, [&](Edge e) { count += piece(e) != piece(across(e)); });
+  return count;
+}
+
 /// Of a node on a crease each side is a part; what a part that is plane is normal to is no way. A corner has
 /// none but the line in which two planes meet.
 void WorkingSurface::keep_on_faces(NodeIndex i, Vec3& way) const {

@@ -104,6 +104,38 @@ TEST(Periods, two_directions_meet_in_edges) {
   EXPECT_GT(body.total.inserted_boundary, 20);
 }
 
+/// At the border of a side a node with next to no matter goes along it, and its image with it; where three
+/// pieces meet and within a side it stays.
+TEST(Periods, nodes_without_matter_go_from_borders) {
+  Periodic body({"x"});
+  constexpr double h = 1.0 / 6;
+  const PeriodImages images(body.cloud, body.rules.periods);
+  SurfaceRules rules;
+  rules.still.assign(body.rules.periods[0].begin(), body.rules.periods[0].end());
+  const auto goes = [&](const Vec3& x) {
+    const auto& place = body.cloud.position;
+    const auto i = as<NodeIndex>(
+        std::find_if(place.begin(), place.end(), [&](const Vec3& y) { return (y - x).norm() < 1e-9; }) -
+        place.begin());
+    const NodeIndex image = images.image(i, body.rules.periods[0][0]);
+    Field size = body.size, matter(size.size(), 0.1 * h * h * h);
+    matter[index_of(i)] = 1e-4 * h * h * h;
+    WorkingSurface surface(body.cloud, IndexedVector<NodeIndex, char>(place.size(), 0), rules);
+    PassReport report;
+    const RefinedSurface refined = refine_surface(surface, size, matter, {}, report, images);
+    EXPECT_TRUE(exists(image));
+    EXPECT_EQ(exists(refined.into[i]), exists(refined.into[image]));
+    if (exists(refined.into[i])) {
+      EXPECT_EQ(images.image(refined.into[i], body.rules.periods[0][0]), refined.into[image]);
+      EXPECT_NEAR(surface.at(refined.into[i]).z(), 1.0, 1e-12);
+    }
+    return exists(refined.into[i]);
+  };
+  EXPECT_TRUE(goes(Vec3(0.0, 0.5, 1.0)));
+  EXPECT_FALSE(goes(Vec3(0.0, 0.0, 1.0)));
+  EXPECT_FALSE(goes(Vec3(0.0, 0.5, 0.5)));
+}
+
 /// Where a side has come through the skin no two parts of the metal are at one place.
 TEST(Periods, crossings_of_sides_are_counted_apart) {
   for (const bool of_side : {true, false}) {
