@@ -19,7 +19,8 @@ Refusal WorkingSurface::may_collapse(Edge e, double spacing, Collapse kind) cons
   const bool folds_meet = length(e) < one * spacing && of_folds(gone);
   if (kind != Collapse::in_shape) {
     if (!holds_less(gone, spacing, kind)) return Refusal::corner;
-    if (!of_folds(gone) && !crease(e)) return Refusal::crease;
+    if (!of_folds(gone) && piece(e) == piece(across(e)))
+      return Refusal::crease; // images are along the border
   } else if (corner(gone)) {
     if (!folds_meet || !corner(stays)) return Refusal::corner;
   } else if (on_crease(gone) && !crease(e) && !(folds_meet && on_crease(stays))) {
