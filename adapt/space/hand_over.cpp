@@ -98,6 +98,10 @@ private:
     });
   }
 
+  bool may_go_together(NodeIndex i, NodeIndex k) const {
+    return body_.may_mix(i, k) && cloud_.one_body(i, k);
+  }
+
   /// Whether the boundary stays a manifold on both sides; fills in where the tetrahedron goes.
   bool may_go(Move& move) const {
     const auto& node = structure_.mesh.node[move.tetrahedron];
@@ -128,9 +132,9 @@ private:
     for (std::size_t c = 0; c < 4; ++c) {
       const NodeIndex i = node[c], image = images_.image(i, piece);
       const bool beyond = sides.size() == 1 && sides[0] == c; // of the side, and of all others
-      if (!body_.may_mix(node[0], i) || periods_of_[i] != (beyond ? 0 : 1) || (beyond && body_.held(i)))
+      if (!may_go_together(node[0], i) || periods_of_[i] != (beyond ? 0 : 1) || (beyond && body_.held(i)))
         return false;
-      if (exists(image) == beyond || (exists(image) && !body_.may_mix(i, image))) return false;
+      if (exists(image) == beyond || (exists(image) && !may_go_together(i, image))) return false;
       move.image[c] = image;
     }
     if (sides.size() == 2 && are_linked(move.image[sides[0]], move.image[sides[1]])) return false;

@@ -276,18 +276,6 @@ void endow(WorkingBody& body, const SpaceStructure& structure) {
 
 namespace {
 
-/// Bodies that have come apart in this pass are triangulated each for itself from now on, where flips may
-/// hold facets in another way than those of the body that they were: matter fills the cells that are then.
-void triangulate_bodies_apart(WorkingBody& body, SpaceStructure& structure, const SpaceRules& rules) {
-  IndexedVector<NodeIndex, std::int32_t> bodies = voronoi::bodies_of(structure.mesh);
-  if (bodies == body.cloud().body) return;
-  body.set_bodies(std::move(bodies));
-  if (!structure.flipped) return;
-  try {
-    structure = structure_of(body.cloud(), voronoi::triangulate(body.cloud()), rules.cells);
-  } catch (const GeometryError& error) { tell_places(body.cloud(), error); }
-}
-
 /// A pass whose surface has this spacing (m, [node]). sound: whether that of the cloud is known not to cross
 /// itself. recut: whether sides of periods are (recut_sides()).
 Resampling<3> attempt(const Cloud<3>& cloud, NodeProperties properties, const Field& size,
@@ -321,9 +309,15 @@ Resampling<3> attempt(const Cloud<3>& cloud, NodeProperties properties, const Fi
     list.clear();
   }
   if (stale) remove(body, structure, {}, rules, report);
-  triangulate_bodies_apart(body, structure, rules);
   balance(body, structure, {limits.light, limits.heavy, limits.sweeps}, report);
   Resampling<3> change = body.finish(structure);
+  if (change.cloud.simplices.empty()) { // whoever triangulates has to find a way to hold them too
+    try {
+      voronoi::Tetrahedra mesh = voronoi::triangulate(change.cloud);
+      change.cloud.simplices = std::move(mesh.node);
+      change.cloud.across = std::move(mesh.neighbour);
+    } catch (const GeometryError& error) { tell_places(change.cloud, error); }
+  }
   for (const Period& period : rules.periods) shifted_nodes(change.cloud, period); // throws where they are not
   return change;
 }

@@ -1,5 +1,7 @@
 #include "adapt/space/working_body.hpp"
 
+#include "voronoi/space/bodies.hpp"
+
 #include <numeric>
 
 namespace cnem::adapt {
@@ -18,8 +20,11 @@ void WorkingBody::renumber(const IndexedVector<NodeIndex, NodeIndex>& number) {
 
 Resampling<3> WorkingBody::finish(const SpaceStructure& structure) const {
   Cloud<3> cloud = cloud_;
-  cloud.simplices = structure.mesh.node;
-  cloud.across = structure.mesh.neighbour;
+  cloud.body = voronoi::bodies_of(structure.mesh);
+  if (!structure.flipped || cloud.body == cloud_.body) {
+    cloud.simplices = structure.mesh.node;
+    cloud.across = structure.mesh.neighbour;
+  }
   std::vector<std::int32_t> order(size());
   std::iota(order.begin(), order.end(), 0);
   return Matter::finished(cloud, order);

@@ -22,9 +22,6 @@ public:
   const Vec3& at(NodeIndex i) const { return cloud_.position[i]; }
   double spacing(NodeIndex i) const { return node().size[index_of(i)]; } ///< m, wanted
 
-  /// Whether matter may go from one to the other.
-  bool may_mix(NodeIndex i, NodeIndex k) const { return Matter::may_mix(i, k) && cloud_.one_body(i, k); }
-
   /// A node without matter between two others.
   NodeIndex insert_between(NodeIndex a, NodeIndex b, const Vec3& x) {
     append({{a, 0.5}, {b, 0.5}});
@@ -53,8 +50,6 @@ public:
     cloud_.facets = std::move(facets);
     sound_ = false;
   }
-  /// As Cloud::body.
-  void set_bodies(IndexedVector<NodeIndex, std::int32_t> body) { cloud_.body = std::move(body); }
   /// Whether facets are known not to cross each other; until one of them changes or moves.
   bool sound() const { return sound_; }
   void set_sound() { sound_ = true; }
@@ -62,8 +57,8 @@ public:
   /// New numbers of all nodes; those that have none go, which have no matter left, and no facet.
   void renumber(const IndexedVector<NodeIndex, NodeIndex>& number);
 
-  /// Everything since construction. The tetrahedra of the structure go with the cloud: they have to be those
-  /// that triangulating it gives.
+  /// Everything since construction. The tetrahedra of the structure go with the cloud where they are those
+  /// that triangulating it gives: not where some were flipped while bodies that are apart now were one.
   Resampling<3> finish(const SpaceStructure& structure) const;
 
 private:
