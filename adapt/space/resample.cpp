@@ -165,10 +165,6 @@ void restore_volume(WorkingBody& body, const IndexedVector<CloudFacetIndex, Face
   body.set_sound(); // as faces of tetrahedra are
 }
 
-} // namespace
-
-namespace {
-
 /// New numbers without those that go, along a space-filling curve when any came or went.
 IndexedVector<NodeIndex, NodeIndex> numbers_in_order(const WorkingBody& body,
                                                      const IndexedVector<NodeIndex, char>& gone) {

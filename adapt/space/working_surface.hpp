@@ -150,8 +150,8 @@ private:
   bool may_become(const Corners& before, const Corners& after) const;
   void keep_on_faces(NodeIndex i, Vec3& way) const;
   bool of_folds(NodeIndex i) const; ///< one piece is all round it
-  /// Whether it takes less than rules.tip or rules.volume with it whichever way it goes, and is within a
-  /// piece or, without matter, at the border of one that is repeated.
+  /// Whether it takes less than rules.tip or, as light as it is, rules.volume with it whichever way it may
+  /// go: within a piece, or along the border of one that is repeated if it is light.
   bool holds_less(NodeIndex i, double spacing, Collapse kind) const;
   int pieces_meet(NodeIndex i) const; ///< edges at a node where facets of two pieces meet
   Refusal may_collapse(Edge e, double spacing, Collapse kind) const;
