@@ -1,7 +1,5 @@
 #include "adapt/matter.hpp"
 
-#include "voronoi/order.hpp"
-
 #include <algorithm>
 
 namespace cnem::adapt {
@@ -116,13 +114,11 @@ bool Matter::came_or_went() const {
          std::find(old_of_.begin(), old_of_.end(), NodeIndex::none) != old_of_.end();
 }
 
-NodeRows Matter::in_order(const IndexedVector<NodeIndex, Row>& rows,
-                          const std::vector<std::int32_t>& order) const {
+NodeRows Matter::rows_of_nodes(const IndexedVector<NodeIndex, Row>& rows) const {
   NodeRows result;
-  result.begin.reserve(order.size() + 1);
+  result.begin.reserve(rows.size() + 1);
   result.begin.push_back(0);
-  for (const std::int32_t k : order) {
-    const auto i = as<NodeIndex>(k);
+  for (const NodeIndex i : rows.indices()) {
     if (rows[i].empty() && exists(old_of_[i])) { // as most are
       result.from.push_back(old_of_[i]);
       result.weight.push_back(1.0);
@@ -136,21 +132,18 @@ NodeRows Matter::in_order(const IndexedVector<NodeIndex, Row>& rows,
   return result;
 }
 
-template<int dim>
-Resampling<dim> Matter::finished(const Cloud<dim>& cloud, const std::vector<std::int32_t>& order) const {
+template<int dim> Resampling<dim> Matter::finished(const Cloud<dim>& cloud) const {
   Resampling<dim> result;
-  result.cloud = voronoi::renumber(cloud, order);
-  result.parcels = in_order(parcels_, order);
-  result.labels = in_order(labels_, order);
+  result.cloud = cloud;
+  result.parcels = rows_of_nodes(parcels_);
+  result.labels = rows_of_nodes(labels_);
+  result.old_of = old_of_;
   result.new_of.assign(old_nodes_, NodeIndex::none);
-  result.old_of.resize(order.size());
-  for (std::size_t p = 0; p < order.size(); ++p) {
-    result.old_of[p] = old_of_[as<NodeIndex>(order[p])];
-    if (exists(result.old_of[p])) result.new_of[result.old_of[p]] = as<NodeIndex>(p);
-  }
+  for (const NodeIndex i : old_of_.indices())
+    if (exists(old_of_[i])) result.new_of[old_of_[i]] = i;
   return result;
 }
-template Resampling<2> Matter::finished(const Cloud<2>&, const std::vector<std::int32_t>&) const;
-template Resampling<3> Matter::finished(const Cloud<3>&, const std::vector<std::int32_t>&) const;
+template Resampling<2> Matter::finished(const Cloud<2>&) const;
+template Resampling<3> Matter::finished(const Cloud<3>&) const;
 
 } // namespace cnem::adapt

@@ -71,13 +71,12 @@ protected:
   void hold(NodeIndex i, char held) { node_.held[i] = held; }
   /// New numbers of all nodes, as renumber().
   void renumber(const IndexedVector<NodeIndex, NodeIndex>& number);
-  /// Everything since construction on a cloud of the present nodes, of which node `new` is order[new] then.
-  template<int dim>
-  Resampling<dim> finished(const Cloud<dim>& cloud, const std::vector<std::int32_t>& order) const;
+  /// Everything since construction on a cloud of the present nodes.
+  template<int dim> Resampling<dim> finished(const Cloud<dim>& cloud) const;
 
 private:
   Row& row(IndexedVector<NodeIndex, Row>& rows, NodeIndex i);
-  NodeRows in_order(const IndexedVector<NodeIndex, Row>& rows, const std::vector<std::int32_t>& order) const;
+  NodeRows rows_of_nodes(const IndexedVector<NodeIndex, Row>& rows) const;
 
   NodeProperties node_;
   std::size_t old_nodes_;

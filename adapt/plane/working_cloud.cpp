@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 namespace cnem::adapt {
@@ -271,10 +270,12 @@ void WorkingCloud::refresh_facets() {
 }
 
 Resampling<2> WorkingCloud::finish() {
-  std::vector<std::int32_t> order(size());
-  std::iota(order.begin(), order.end(), 0);
-  if (came_or_went()) order = voronoi::hilbert_order(cloud_.position);
-  return Matter::finished(cloud_, order);
+  if (!came_or_went()) return Matter::finished(cloud_);
+  const std::vector<std::int32_t> order = voronoi::hilbert_order(cloud_.position);
+  IndexedVector<NodeIndex, NodeIndex> number(size());
+  for (std::size_t n = 0; n < order.size(); ++n) number[index_of(order[n])] = as<NodeIndex>(n);
+  Matter::renumber(number);
+  return Matter::finished(voronoi::renumber(cloud_, order));
 }
 
 } // namespace cnem::adapt

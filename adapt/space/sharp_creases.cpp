@@ -1,4 +1,5 @@
 #include "adapt/space/sharp_creases.hpp"
+#include "core/disjoint_sets.hpp"
 #include "core/index.hpp"
 
 #include <Eigen/Geometry>
@@ -39,21 +40,14 @@ std::vector<AcuteEdge> acute_edges(const WorkingSurface& surface, const Field& w
     if (const double sine = acuteness(surface, e); sine < 1.0)
       list.push_back({surface.start(e), surface.end(e), sine, 0.0});
   }
-  std::vector<NodeIndex> first(wanted.size()); // of what hangs together with a node
-  for (std::size_t i = 0; i < first.size(); ++i) first[i] = as<NodeIndex>(i);
-  const auto root = [&](NodeIndex i) {
-    while (first[index_of(i)] != i) i = first[index_of(i)] = first[index_of(first[index_of(i)])];
-    return i;
-  };
-  for (const AcuteEdge& edge : list) {
-    const NodeIndex a = root(edge.start), b = root(edge.end);
-    first[index_of(std::max(a, b))] = std::min(a, b);
-  }
-  Field length(wanted.size(), 0.0); // by root
+  DisjointSets together(wanted.size());
+  for (const AcuteEdge& edge : list) together.join(index_of(edge.start), index_of(edge.end));
+  Field length(wanted.size(), 0.0); // by the first node of what hangs together
   for (const AcuteEdge& edge : list)
-    length[index_of(root(edge.start))] += 2.0 * surface.length(surface.between(edge.start, edge.end)) /
-                                          (wanted[index_of(edge.start)] + wanted[index_of(edge.end)]);
-  for (AcuteEdge& edge : list) edge.length = length[index_of(root(edge.start))];
+    length[together.first(index_of(edge.start))] +=
+        2.0 * surface.length(surface.between(edge.start, edge.end)) /
+        (wanted[index_of(edge.start)] + wanted[index_of(edge.end)]);
+  for (AcuteEdge& edge : list) edge.length = length[together.first(index_of(edge.start))];
   return list;
 }
 

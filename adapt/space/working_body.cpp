@@ -2,8 +2,6 @@
 
 #include "voronoi/space/bodies.hpp"
 
-#include <numeric>
-
 namespace cnem::adapt {
 
 void WorkingBody::renumber(const IndexedVector<NodeIndex, NodeIndex>& number) {
@@ -25,9 +23,7 @@ Resampling<3> WorkingBody::finish(const SpaceStructure& structure) const {
     cloud.simplices = structure.mesh.node;
     cloud.across = structure.mesh.neighbour;
   }
-  std::vector<std::int32_t> order(size());
-  std::iota(order.begin(), order.end(), 0);
-  return Matter::finished(cloud, order);
+  return Matter::finished(cloud);
 }
 
 } // namespace cnem::adapt

@@ -1,5 +1,6 @@
 #include "mechanics/statics/rigid_motion.hpp"
 
+#include "core/disjoint_sets.hpp"
 #include "core/geometry/place_text.hpp"
 #include "core/index.hpp"
 
@@ -7,7 +8,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
-#include <numeric>
 
 namespace cnem {
 
@@ -87,23 +87,18 @@ template<int dim> std::string free_motion(const Part<dim>& part, bool several) {
 } // namespace
 
 template<int dim> std::vector<std::size_t> parts_of(const DiscreteOperators<dim>& op, std::size_t nodes) {
-  std::vector<std::size_t> parent(nodes);
-  std::iota(parent.begin(), parent.end(), std::size_t{0});
-  const auto root = [&](std::size_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
+  DisjointSets together(nodes);
   for (std::size_t p = 0; p < index_of(op.points); ++p) {
     const auto first = index_of(op.row_begin[p]), last = index_of(op.row_begin[p + 1]);
     for (std::size_t e = first + 1; e < last; ++e) {
       const auto a = index_of(op.node[first]), b = index_of(op.node[e]);
       if (a >= nodes || b >= nodes) continue; // enrichment
-      const std::size_t ra = root(a), rb = root(b);
-      parent[std::max(ra, rb)] = std::min(ra, rb);
+      together.join(a, b);
     }
   }
-  for (std::size_t i = 0; i < nodes; ++i) parent[i] = root(i);
-  return parent;
+  std::vector<std::size_t> part(nodes);
+  for (std::size_t i = 0; i < nodes; ++i) part[i] = together.first(i);
+  return part;
 }
 
 template<int dim>

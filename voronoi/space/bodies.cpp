@@ -1,10 +1,10 @@
 #include "voronoi/space/bodies.hpp"
 
+#include "core/disjoint_sets.hpp"
 #include "core/index.hpp"
 
 #include <algorithm>
 #include <cassert>
-#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -12,21 +12,13 @@ namespace cnem::voronoi {
 
 IndexedVector<NodeIndex, std::int32_t> bodies_of(const Tetrahedra& mesh) {
   const std::size_t nodes = mesh.of_node.size();
-  IndexedVector<NodeIndex, NodeIndex> parent(nodes);
-  for (const NodeIndex i : parent.indices()) parent[i] = i;
-  const auto root = [&](NodeIndex i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  };
+  DisjointSets together(nodes);
   for (const auto& node : mesh.node)
-    for (std::size_t k = 1; k < 4; ++k) {
-      const NodeIndex a = root(node[0]), b = root(node[k]);
-      parent[std::max(a, b)] = std::min(a, b);
-    }
+    for (std::size_t k = 1; k < 4; ++k) together.join(index_of(node[0]), index_of(node[k]));
   IndexedVector<NodeIndex, std::int32_t> body(nodes, -1);
   std::int32_t bodies = 0;
-  for (const NodeIndex i : body.indices()) { // a root comes before the others
-    const NodeIndex first = root(i);
+  for (const NodeIndex i : body.indices()) { // the first of each comes before the others
+    const auto first = as<NodeIndex>(together.first(index_of(i)));
     body[i] = first == i ? bodies++ : body[first];
   }
   return bodies > 1 ? body : IndexedVector<NodeIndex, std::int32_t>{};
