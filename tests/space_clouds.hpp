@@ -351,4 +351,19 @@ inline Cloud<3> pressed_cubes(int cells, double deep, bool with_bodies) {
   return both;
 }
 
+/// A tetrahedron a, b, c, d of `thick` metal whose edges ac and bd pass above each other, and, beyond its
+/// faces acd and bcd, enough metal that cd lies inside. Nodes 0 to 3 are a, b, c and d.
+inline Cloud<3> film(double thick, const Vec2& at_d) {
+  Cloud<3> cloud;
+  for (const Vec3& x : {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, thick), Vec3(at_d.x(), at_d.y(), -thick),
+                        Vec3(0.3, 1.5, 1), Vec3(0.7, 1.5, -1)})
+    cloud.position.push_back(x);
+  cloud.piece_names = {"side"};
+  const std::array<std::array<std::size_t, 3>, 8> facets{
+      {{0, 1, 2}, {1, 0, 3}, {0, 2, 4}, {3, 0, 4}, {2, 1, 5}, {1, 3, 5}, {4, 2, 5}, {3, 4, 5}}};
+  for (const auto& [i, j, k] : facets)
+    cloud.facets.push_back({{as<NodeIndex>(i), as<NodeIndex>(j), as<NodeIndex>(k)}, as<PieceIndex>(0)});
+  return cloud;
+}
+
 } // namespace cnem::testing

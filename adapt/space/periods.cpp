@@ -156,11 +156,11 @@ bool AlikeEdits::may_collapse(const std::vector<Edge>& all, double spacing, Coll
   return apart(std::move(beside));
 }
 
-bool AlikeEdits::may_flip(const std::vector<Edge>& all, double spacing) const {
+bool AlikeEdits::may_flip(const std::vector<Edge>& all, double spacing, Flip kind) const {
   if (all.size() < 2) return !all.empty();
   std::vector<std::vector<NodeIndex>> beside;
   for (const Edge e : all) {
-    if (!surface_->try_flip(e, spacing).done()) return false;
+    if (!surface_->try_flip(e, spacing, kind).done()) return false;
     beside.push_back(
         {surface_->start(e), surface_->end(e), surface_->apex(e), surface_->apex(surface_->across(e))});
   }

@@ -53,7 +53,7 @@ public:
   /// Whether collapse() or flip() does all of these edges, which are images of each other, whatever the
   /// order.
   bool may_collapse(const std::vector<Edge>& all, double spacing, Collapse kind = Collapse::in_shape) const;
-  bool may_flip(const std::vector<Edge>& all, double spacing) const;
+  bool may_flip(const std::vector<Edge>& all, double spacing, Flip kind = Flip::in_shape) const;
 
 private:
   template<class Visit> void each_image(Edge e, Visit&& visit) const;

@@ -36,6 +36,7 @@ public:
       collapse_short();
       collapse_tips();
       flip_all();
+      flip_films();
       if (changes_ == before) break;
     }
     give_back(surface_, std::move(debt_), size_, limit_.give_back);
@@ -113,14 +114,25 @@ private:
       if (e == WorkingSurface::no_edge || !surface_.wants_flip(e)) continue;
       const std::vector<Edge> all = alike_.edges(e);
       if (!alike_.may_flip(all, size(e))) continue;
-      for (const Edge k : all) flip(k, push);
+      for (const Edge k : all) flip(k, Flip::in_shape, push);
     }
   }
 
-  template<class Push> void flip(Edge e, const Push& push) {
+  void flip_films() {
+    for (Edge e = 0; e < surface_.edges(); ++e) {
+      if (!surface_.alive(e) || surface_.across(e) < e) continue;
+      const std::vector<Edge> all = alike_.edges(e);
+      if (!surface_.try_flip(e, size(e), Flip::of_film).done() ||
+          !alike_.may_flip(all, size(e), Flip::of_film))
+        continue;
+      for (const Edge k : all) flip(k, Flip::of_film, [](Edge) {});
+    }
+  }
+
+  template<class Push> void flip(Edge e, Flip kind, const Push& push) {
     const NodeIndex a = surface_.start(e), b = surface_.end(e), c = surface_.apex(e),
                     d = surface_.apex(surface_.across(e));
-    const SurfaceChange change = surface_.flip(e, size(e));
+    const SurfaceChange change = surface_.flip(e, size(e), kind);
     if (!change.done()) return;
     owe(-change.volume, {a, b, c, d});
     ++report_.flipped;

@@ -28,7 +28,7 @@ double acuteness(const WorkingSurface& surface, Edge e) {
 struct AcuteEdge {
   NodeIndex start, end;
   double sine;   ///< of the angle
-  double length; ///< h, of all acute edges that hang together with it
+  double length; ///< h, of all acute edges that hang together with it but for the longest
 };
 
 std::vector<AcuteEdge> acute_edges(const WorkingSurface& surface, const Field& wanted) {
@@ -42,12 +42,18 @@ std::vector<AcuteEdge> acute_edges(const WorkingSurface& surface, const Field& w
   }
   DisjointSets together(wanted.size());
   for (const AcuteEdge& edge : list) together.join(index_of(edge.start), index_of(edge.end));
-  Field length(wanted.size(), 0.0); // by the first node of what hangs together
-  for (const AcuteEdge& edge : list)
-    length[together.first(index_of(edge.start))] +=
-        2.0 * surface.length(surface.between(edge.start, edge.end)) /
-        (wanted[index_of(edge.start)] + wanted[index_of(edge.end)]);
-  for (AcuteEdge& edge : list) edge.length = length[together.first(index_of(edge.start))];
+  Field total(wanted.size(), 0.0), longest = total; // by the first node of what hangs together
+  for (const AcuteEdge& edge : list) {
+    const std::size_t i = together.first(index_of(edge.start));
+    const double length = 2.0 * surface.length(surface.between(edge.start, edge.end)) /
+                          (wanted[index_of(edge.start)] + wanted[index_of(edge.end)]);
+    total[i] += length;
+    longest[i] = std::max(longest[i], length);
+  }
+  for (AcuteEdge& edge : list) {
+    const std::size_t i = together.first(index_of(edge.start));
+    edge.length = total[i] - longest[i];
+  }
   return list;
 }
 

@@ -222,19 +222,36 @@ bool WorkingSurface::wants_flip(Edge e) const {
   return cotangent(e) + cotangent(across(e)) < least;
 }
 
-SurfaceChange WorkingSurface::try_flip(Edge e, double spacing) const {
+/// Whether there is nothing but a tetrahedron of flat metal between the facets of an edge, of which a further
+/// edge passes above another one: the facets cross as soon as it has turned inside out.
+bool WorkingSurface::is_film(Edge e) const {
+  if (cosine_across(e) > 0.0) return false;
+  const Vec3 a = at(start(e)), b = at(end(e)), c = at(apex(e)), d = at(apex(across(e)));
+  if ((b - a).cross(c - a).dot(d - a) > 0.0) return false; // a notch
+  const auto cross = [](const Vec3& from, const Vec3& to, const Vec3& start, const Vec3& end) {
+    const Vec3 normal = (to - from).cross(end - start), between = start - from;
+    const double s = between.cross(end - start).dot(normal), t = between.cross(to - from).dot(normal),
+                 whole = normal.squaredNorm();
+    return s > 0.0 && s < whole && t > 0.0 && t < whole;
+  };
+  return cross(a, c, b, d) || cross(a, d, b, c);
+}
+
+SurfaceChange WorkingSurface::try_flip(Edge e, double spacing, Flip kind) const {
   if (!alive(e)) return {Refusal::absent};
   const Edge back = across(e);
   const std::size_t f = index_of(e / 3), g = index_of(back / 3);
   if (closed_[f] || closed_[g]) return {Refusal::held};
-  if (facet_[f].piece != facet_[g].piece || cosine_across(e) < least_flat_) return {Refusal::crease};
+  const bool film = kind == Flip::of_film;
+  if (facet_[f].piece != facet_[g].piece || (film ? !is_film(e) : cosine_across(e) < least_flat_))
+    return {Refusal::crease};
   const NodeIndex a = start(e), b = end(e), c = apex(e), d = apex(back);
   if (c == d || between(c, d) != no_edge || valence(a) < 4 || valence(b) < 4) return {Refusal::link};
   const Corners one{at(c), at(a), at(d)}, other{at(d), at(b), at(c)};
   const Vec3 sum = area_normal<3>(corners(f)) + area_normal<3>(corners(g));
   const double shape = std::min(rules_.shape, std::min(shape_of(corners(f)), shape_of(corners(g))));
   for (const Corners& after : {one, other})
-    if (cosine_between(area_normal<3>(after), sum) < least_turn_ || shape_of(after) < shape)
+    if ((!film && cosine_between(area_normal<3>(after), sum) < least_turn_) || shape_of(after) < shape)
       return {Refusal::normals};
   const double volume = (at(b) - at(a)).cross(at(c) - at(a)).dot(at(d) - at(a)) / 6.0;
   const double cube = spacing * spacing * spacing;
@@ -244,8 +261,8 @@ SurfaceChange WorkingSurface::try_flip(Edge e, double spacing) const {
   return {Refusal::none, volume};
 }
 
-SurfaceChange WorkingSurface::flip(Edge e, double spacing) {
-  const SurfaceChange change = try_flip(e, spacing);
+SurfaceChange WorkingSurface::flip(Edge e, double spacing, Flip kind) {
+  const SurfaceChange change = try_flip(e, spacing, kind);
   if (!change.done()) return change;
   const Edge back = across(e);
   const std::size_t f = index_of(e / 3), g = index_of(back / 3);

@@ -55,6 +55,12 @@ enum class Collapse {
   of_light, ///< a node with next to no matter, that holds no more than a change of the shape may take
 };
 
+/// Which edges may become the other diagonal of their facets.
+enum class Flip {
+  in_shape, ///< of facets that lie flat beside each other
+  of_film,  ///< of two facets that lie back to back, so that a side of one crosses a side of the other
+};
+
 /// Half-edges in triples: edge 3f + k leaves node k of facet f (voronoi/space/surface.hpp). It is closed and
 /// without branches from beginning to end: whatever would not keep it so is refused, with a reason, and then
 /// nothing has changed. Several closed components are one surface. Numbers of nodes and facets stay; those
@@ -125,10 +131,10 @@ public:
   /// Whether a node is a corner of one piece that holds less than rules.tip whichever way it would go: the
   /// end of a whisker that has been drawn out, or a corner of a film. Collapse::of_tip takes it away.
   bool is_tip(NodeIndex i, double spacing) const;
-  /// The edge becomes the other diagonal of its two facets.
-  SurfaceChange flip(Edge e, double spacing);
+  /// The edge becomes the other diagonal of its two facets. spacing: h, m.
+  SurfaceChange flip(Edge e, double spacing, Flip kind = Flip::in_shape);
   /// What flip() would do.
-  SurfaceChange try_flip(Edge e, double spacing) const;
+  SurfaceChange try_flip(Edge e, double spacing, Flip kind = Flip::in_shape) const;
   /// Whether the angles across from an edge are more than π together.
   bool wants_flip(Edge e) const;
   /// Moves a node along its way_of_volume() so that the volume grows by `volume` (m³), to first order; not
@@ -157,6 +163,7 @@ private:
   Refusal may_collapse(Edge e, double spacing, Collapse kind) const;
   double volume_towards(NodeIndex gone, NodeIndex stays) const;
   bool may_cap(Edge e) const;
+  bool is_film(Edge e) const;
   Edge add_facet(const Facet<3>& facet);
 
   SurfaceRules rules_;

@@ -68,6 +68,17 @@ TEST(RefineSurface, spacing_is_wider_where_metal_runs_out) {
   }
 }
 
+// An edge that is a crease all alone would allow itself to be the longer the longer it is.
+TEST(RefineSurface, spacing_is_no_wider_at_a_single_sharp_edge) {
+  for (const int cells : {1, 2}) {
+    Cloud<3> cloud = testing::unrecovered({.shape = SpaceShape::cube, .cells = cells});
+    for (Vec3& x : cloud.position) x.x() += 4.0 * x.y();
+    const Field wanted(cloud.position.size(), 0.1),
+        spacing = spacing_at_sharp_creases(loose_surface_of(cloud), wanted);
+    EXPECT_DOUBLE_EQ(*std::max_element(spacing.begin(), spacing.end()), cells == 1 ? 0.1 : 0.4);
+  }
+}
+
 /// A cube with a needle of three sides on a facet of its top: ends of nodes 0.4 h and `thin` h across, `high`
 /// h.
 Cloud<3> with_needle(int cells, double thin, double high) {
@@ -116,6 +127,18 @@ TEST(RefineSurface, spacing_is_no_wider_than_twice_the_length_of_sharp_edges) {
   EXPECT_LT(widest(0.2), 2.0);
   EXPECT_GT(widest(0.5), widest(0.2));
   EXPECT_GT(widest(2.0), std::max(3.0, widest(0.5)));
+}
+
+TEST(RefineSurface, films_whose_sides_cross_go) {
+  const Cloud<3> cloud = testing::film(0.02, {0, 1});
+  WorkingSurface surface = loose_surface_of(cloud);
+  Field size(cloud.position.size(), 1.5);
+  PassReport report;
+  refine_surface(surface, size, enough(size), {}, report, PeriodImages(cloud, {}));
+  const auto node = [](std::size_t k) { return as<NodeIndex>(k); };
+  EXPECT_EQ(surface.between(node(0), node(1)), WorkingSurface::no_edge);
+  EXPECT_NE(surface.between(node(2), node(3)), WorkingSurface::no_edge);
+  EXPECT_EQ(report.flipped, 1);
 }
 
 // Metal that was drawn out into a needle bears nothing and holds the step: its end goes.

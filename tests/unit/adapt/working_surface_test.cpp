@@ -250,6 +250,32 @@ TEST(WorkingSurface, keeps_its_shape_between_held_nodes_that_hold_new_ones) {
   }
 }
 
+// Metal between facets that lie back to back turns inside out before a pass comes, and then they cross.
+TEST(WorkingSurface, takes_away_films_whose_sides_cross) {
+  const auto flip = [](double thick, const Vec2& at_d, Flip kind) {
+    const Cloud<3> cloud = testing::film(thick, at_d);
+    WorkingSurface surface = surface_of(cloud);
+    const Edge e = surface.between(as<NodeIndex>(0), as<NodeIndex>(1));
+    const SurfaceChange change = surface.flip(e, 1.0, kind);
+    const Cloud<3> changed = cloud_of(surface, cloud);
+    voronoi::surface_edges(changed);
+    EXPECT_NEAR(enclosed_measure(changed) - enclosed_measure(cloud), change.volume, 1e-15);
+    if (change.done()) {
+      EXPECT_NEAR(change.volume, -thick / 3.0, 1e-15);
+      EXPECT_TRUE(voronoi::crossings(changed).empty());
+    }
+    return change.refusal;
+  };
+  const Vec2 beside(0, 1);
+  EXPECT_TRUE(voronoi::crossings(testing::film(0.02, beside)).empty());
+  EXPECT_FALSE(voronoi::crossings(testing::film(-0.02, beside)).empty());
+  EXPECT_EQ(flip(0.02, beside, Flip::of_film), Refusal::none);
+  EXPECT_EQ(flip(0.02, beside, Flip::in_shape), Refusal::crease);
+  EXPECT_EQ(flip(0.2, beside, Flip::of_film), Refusal::volume);
+  EXPECT_EQ(flip(-0.02, beside, Flip::of_film), Refusal::crease) << "it has turned inside out";
+  EXPECT_EQ(flip(0.02, {0.5, 0.3}, Flip::of_film), Refusal::crease) << "no side passes above another one";
+}
+
 TEST(WorkingSurface, gives_back_volume_where_nodes_may_move) {
   const Cloud<3> cloud = testing::unrecovered({.shape = SpaceShape::torus, .cells = 10, .jitter = 0.1});
   WorkingSurface surface = surface_of(cloud);
