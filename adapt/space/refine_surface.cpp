@@ -39,7 +39,7 @@ public:
       flip_films();
       if (changes_ == before) break;
     }
-    give_back(surface_, std::move(debt_), size_, limit_.give_back);
+    give_back(surface_, std::move(debt_), size_, limit_.give_back, true);
     return std::move(result_);
   }
 
@@ -271,18 +271,20 @@ private:
 
 } // namespace
 
-void give_back(WorkingSurface& surface, Field debt, const Field& size, double most) {
-  constexpr int times = 3;
+void give_back(WorkingSurface& surface, Field debt, const Field& size, double most, bool further) {
+  const int times = further ? 12 : 3;
   for (int n = 0; n < times; ++n) {
     Field left(debt.size(), 0.0);
     for (const NodeIndex i : IndexRange<NodeIndex>(debt.size())) {
       const double owed = debt[index_of(i)], h = size[index_of(i)];
       if (std::abs(owed) < 1e-12 * h * h * h) continue;
       if (surface.swell(i, owed, most * h)) continue;
-      std::vector<NodeIndex> beside;
+      std::vector<NodeIndex> beside, all;
       surface.around(i, [&](Edge e) {
+        all.push_back(surface.end(e));
         if (surface.way_of_volume(surface.end(e)) != Vec3::Zero()) beside.push_back(surface.end(e));
       });
+      if (further && beside.empty()) beside = all; // who pass it on
       for (const NodeIndex k : beside) left[index_of(k)] += owed / static_cast<double>(beside.size());
     }
     debt = std::move(left);

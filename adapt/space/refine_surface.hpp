@@ -38,8 +38,9 @@ RefinedSurface refine_surface(WorkingSurface& surface, Field& size, const Field&
                               const PeriodImages& images);
 
 /// Moves nodes along the gradient of the volume by `most` h at most, so that each wins the volume that it
-/// owes, debt[node] in m³; who cannot leaves it to nodes beside.
-void give_back(WorkingSurface& surface, Field debt, const Field& size, double most);
+/// owes, debt[node] in m³; who cannot leaves it to nodes beside, and `further` to those beyond where none of
+/// these can either.
+void give_back(WorkingSurface& surface, Field debt, const Field& size, double most, bool further = false);
 /// The surface of a cloud that encloses `volume` (m³) more, as far as give_back() can, of which nodes of a
 /// list take equal shares. fixed: [node] those that stay.
 WorkingSurface swollen_by(double volume, const Cloud<3>& cloud, std::span<const NodeIndex> giving,

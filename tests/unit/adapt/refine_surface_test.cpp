@@ -129,6 +129,30 @@ TEST(RefineSurface, spacing_is_no_wider_than_twice_the_length_of_sharp_edges) {
   EXPECT_GT(widest(2.0), std::max(3.0, widest(0.5)));
 }
 
+// What a node owes goes to those that may move, however far they are.
+TEST(RefineSurface, volume_is_given_back_beyond_nodes_that_stay) {
+  const Cloud<3> cloud = testing::unrecovered({.shape = SpaceShape::torus, .cells = 10, .jitter = 0.1});
+  const Field size(cloud.position.size(), 0.1);
+  const NodeIndex owing = cloud.facets[as<CloudFacetIndex>(0)].node[0];
+  IndexedVector<NodeIndex, char> fixed(cloud.position.size(), 0);
+  fixed[owing] = 1;
+  for (int rings = 0; rings < 3; ++rings) {
+    constexpr double volume = 1e-6;
+    Cloud<3> given = cloud;
+    WorkingSurface surface(cloud, fixed);
+    Field debt(size.size(), 0.0);
+    debt[index_of(owing)] = volume;
+    give_back(surface, debt, size, SurfaceThresholds{}.give_back, true);
+    given.position = surface.position();
+    EXPECT_NEAR(enclosed_measure(given) - enclosed_measure(cloud), volume, 0.01 * volume) << rings;
+    IndexedVector<NodeIndex, char> wider = fixed;
+    for (const Facet<3>& facet : cloud.facets)
+      if (fixed[facet.node[0]] || fixed[facet.node[1]] || fixed[facet.node[2]])
+        for (const NodeIndex i : facet.node) wider[i] = 1;
+    fixed = wider;
+  }
+}
+
 TEST(RefineSurface, films_whose_sides_cross_go) {
   const Cloud<3> cloud = testing::film(0.02, {0, 1});
   WorkingSurface surface = loose_surface_of(cloud);
