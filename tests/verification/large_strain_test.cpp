@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numeric>
 #include <utility>
 
 namespace cnem::testing {
@@ -68,17 +69,17 @@ public:
     lead([](double) {}, [] {}, end);
   }
 
-  /// mean, worst: bounds on the distance of nodes' stresses from the exact one, over its norm.
-  void expect_stress(const Mat3& exact, double mean, double worst) const {
-    double sum = 0.0, most = 0.0;
+  /// mean, worst: bounds on the distance of nodes' stresses from the exact one, over its norm; worst: of this
+  /// `share` of the nodes.
+  void expect_stress(const Mat3& exact, double mean, double worst, double share = 1.0) const {
+    std::vector<double> off;
     const PointState<3>& point = solver_.state().point;
-    for (std::size_t p = 0; p < point.size(); ++p) {
-      const double off = (cauchy(point, p) - exact).norm() / exact.norm();
-      sum += off;
-      most = std::max(most, off);
-    }
-    EXPECT_LT(sum / static_cast<double>(point.size()), mean);
-    EXPECT_LT(most, worst);
+    for (std::size_t p = 0; p < point.size(); ++p)
+      off.push_back((cauchy(point, p) - exact).norm() / exact.norm());
+    std::sort(off.begin(), off.end());
+    const auto nodes = static_cast<double>(off.size());
+    EXPECT_LT(std::accumulate(off.begin(), off.end(), 0.0) / nodes, mean);
+    EXPECT_LT(off[static_cast<std::size_t>(share * (nodes - 1.0))], worst) << off.back() << " at most";
   }
 
   /// What passes have counted.
@@ -211,7 +212,8 @@ TEST_P(LargeStrain, simple_shear_to_four) {
 }
 
 // Between two pairs of periodic planes, of which one turns: its sharp edges are tied to blunt ones. Single
-// nodes of the planes, which are half cells, stray further than others on median cells.
+// nodes of the planes, which are half cells, stray further than others on median cells: by up to 9%, which
+// the rounding of kernels alone changes by half.
 TEST_P(LargeStrain, simple_shear_to_four_between_periodic_planes) {
   constexpr double rate = 1e5, end = 4.0 / rate;
   Mat3 gradient = Mat3::Zero();
@@ -228,7 +230,8 @@ high = { pieces = ["y+"], velocity = "100 0 0 m/s" }
   body.run(end);
   body.expect_sound_passes(10);
   const Motion motion = [&](double t) -> Mat3 { return Mat3::Identity() + t * gradient; };
-  body.expect_stress(exact_stress(body.material(), motion, end), 0.01, 0.06);
+  body.expect_stress(exact_stress(body.material(), motion, end), 0.01, 0.03, 0.95);
+  body.expect_stress(exact_stress(body.material(), motion, end), 0.01, 0.15);
   EXPECT_GT(body.step(), 0.5 * body.first_step());
 }
 
