@@ -1,6 +1,7 @@
 // The least surface through broken matter.
 #include "adapt/space/least_cut.hpp"
 #include "adapt/space/separate.hpp"
+#include "core/disjoint_sets.hpp"
 #include "core/geometry/facets.hpp"
 #include "core/index.hpp"
 
@@ -14,23 +15,6 @@ namespace {
 using voronoi::face_of_tetrahedron;
 using voronoi::Tetrahedra;
 using Parts = IndexedVector<SimplexIndex, std::int32_t>;
-
-class Union {
-public:
-  explicit Union(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0); }
-  std::size_t root(std::size_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(std::size_t a, std::size_t b) {
-    a = root(a);
-    b = root(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
-private:
-  std::vector<std::size_t> parent_;
-};
 
 /// A face between two blocks that may be opened.
 struct Passage {
@@ -77,7 +61,7 @@ private:
   /// Blocks: tetrahedra that no cut can divide. Components: what hangs together.
   void find_blocks() {
     const std::size_t n = mesh_.node.size();
-    Union whole(n), apart(n);
+    DisjointSets whole(n), apart(n);
     for (const SimplexIndex t : mesh_.node.indices())
       for (std::size_t k = 0; k < 4; ++k) {
         const SimplexIndex next = mesh_.neighbour[t][k];
@@ -87,11 +71,11 @@ private:
       }
     block_.assign(n, -1);
     for (std::size_t t = 0; t < n; ++t) {
-      if (apart.root(t) == t) {
+      if (apart.first(t) == t) {
         block_[t] = static_cast<std::int32_t>(blocks_++);
-        component_.push_back(whole.root(t));
+        component_.push_back(whole.first(t));
       }
-      block_[t] = block_[apart.root(t)];
+      block_[t] = block_[apart.first(t)];
     }
     for (const SimplexIndex t : mesh_.node.indices())
       for (std::size_t k = 0; k < 4; ++k) {

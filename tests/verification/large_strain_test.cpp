@@ -11,6 +11,7 @@
 #include <cmath>
 #include <functional>
 #include <numeric>
+#include <string>
 #include <utility>
 
 namespace cnem::testing {
@@ -69,9 +70,9 @@ public:
     lead([](double) {}, [] {}, end);
   }
 
-  /// mean, worst: bounds on the distance of nodes' stresses from the exact one, over its norm; worst: of this
-  /// `share` of the nodes.
-  void expect_stress(const Mat3& exact, double mean, double worst, double share = 1.0) const {
+  /// Bounds on the distance of nodes' stresses from the exact one, over its norm: the mean, of 95% of the
+  /// nodes, and of all.
+  void expect_stress(const Mat3& exact, double mean, double most, double worst) const {
     std::vector<double> off;
     const PointState<3>& point = solver_.state().point;
     for (std::size_t p = 0; p < point.size(); ++p)
@@ -79,7 +80,8 @@ public:
     std::sort(off.begin(), off.end());
     const auto nodes = static_cast<double>(off.size());
     EXPECT_LT(std::accumulate(off.begin(), off.end(), 0.0) / nodes, mean);
-    EXPECT_LT(off[static_cast<std::size_t>(share * (nodes - 1.0))], worst) << off.back() << " at most";
+    EXPECT_LT(off[static_cast<std::size_t>(0.95 * (nodes - 1.0))], most);
+    EXPECT_LT(off.back(), worst);
   }
 
   /// What passes have counted.
@@ -205,7 +207,7 @@ TEST_P(LargeStrain, simple_shear_to_four) {
   Driven body(case_of(strained_cube, GetParam().method), gradient);
   body.lead(motion, end);
   body.expect_sound_passes(10);
-  body.expect_stress(exact_stress(body.material(), motion, end), 0.001, 0.01);
+  body.expect_stress(exact_stress(body.material(), motion, end), 0.001, 0.01, 0.01);
   // Two edges of the body have become 14 degrees sharp: there the spacing is wider. A cloud that is generated
   // in the sheared shape has 0.39 of the first step.
   EXPECT_GT(body.step(), 0.5 * body.first_step());
@@ -230,8 +232,8 @@ high = { pieces = ["y+"], velocity = "100 0 0 m/s" }
   body.run(end);
   body.expect_sound_passes(10);
   const Motion motion = [&](double t) -> Mat3 { return Mat3::Identity() + t * gradient; };
-  body.expect_stress(exact_stress(body.material(), motion, end), 0.01, 0.03, 0.95);
-  body.expect_stress(exact_stress(body.material(), motion, end), 0.01, 0.15);
+  const bool median = std::string(GetParam().name) == "median";
+  body.expect_stress(exact_stress(body.material(), motion, end), 0.01, 0.03, median ? 0.12 : 0.06);
   EXPECT_GT(body.step(), 0.5 * body.first_step());
 }
 
@@ -246,7 +248,7 @@ TEST_P(LargeStrain, pure_shear_to_four) {
   Driven body(case_of(tall, GetParam().method), Vec3(rate, -rate, 0.0).asDiagonal());
   body.lead(motion, end);
   body.expect_sound_passes(6);
-  body.expect_stress(exact_stress(body.material(), motion, end), 0.01, 0.03);
+  body.expect_stress(exact_stress(body.material(), motion, end), 0.01, 0.03, 0.03);
   EXPECT_GT(body.step(), 0.5 * body.first_step());
 }
 
@@ -263,7 +265,7 @@ platen = { pieces = ["z+"], velocity = { z = "-10 m/s" } }
               velocity * Vec3(0.5, 0.5, -1.0).asDiagonal());
   body.run(end);
   body.expect_sound_passes(5);
-  body.expect_stress(exact_upsetting(body.material(), velocity, end), 0.01, 0.03);
+  body.expect_stress(exact_upsetting(body.material(), velocity, end), 0.01, 0.03, 0.03);
   EXPECT_GT(body.step(), 0.5 * body.first_step());
 }
 
