@@ -30,7 +30,7 @@ DamagePoints<dim> damage_points(PointState<dim>& state, const Field& length, con
 /// Takes the points [begin, end) from the stress that update_stress has just made (with the flow stress
 /// lowered by the softening ω of the last step) to the damaged one:
 ///
-///   dD = dε̄p/ε_f up to D = 1, where ω begins;  d(1 − ω)² = −σ_eq dε̄p ℓ/G_f,
+///   dD = dε̄p/ε_f until softening is initiated;  d(1 − ω)² = −σ_eq dε̄p ℓ/G_f,
 ///
 /// so that a band of thickness ℓ takes G_f per area whatever it hardens and however long ℓ is, and 1 − ω
 /// falls linearly with ℓ ε̄p at constant flow stress. The mean stress is multiplied by 1 − ω in tension and

@@ -2,6 +2,7 @@
 #include "core/machine/simd.hpp"
 #include "plasticity/damage_laws/list.hpp"
 #include "plasticity/damage_points.hpp"
+#include "plasticity/initiated.hpp"
 #include "plasticity/spectral.hpp"
 #include "plasticity/with_law.hpp"
 
@@ -53,7 +54,8 @@ CNEM_INLINE void accumulate(const DamageParameters& parameters, const Law& law,
                             const DamagePoints<dim>& points, std::ptrdiff_t p, Mask<T> flowing, T damage,
                             T gap, T borne, T& softening) {
   const T rate = load<T>(points.stress.plastic_rate + p);
-  const Mask<T> sound = flowing & (damage < T(1.0)), initiated = flowing & (damage >= T(1.0));
+  const Mask<T> softens = flowing & initiated(damage, softening);
+  const Mask<T> sound = flowing & !softens;
   if (any(sound)) {
     Flowing<T> at;
     at.equivalent = max(load<T>(points.stress.equivalent_stress + p), T(1e-100));
@@ -65,18 +67,18 @@ CNEM_INLINE void accumulate(const DamageParameters& parameters, const Law& law,
     const T strain = max(fracture_strain(law, at), T(no_ductility));
     const Mask<T> counted = sound & breaks(law, at);
     const T total = select(counted, damage + rate * T(parameters.dt) / strain, damage);
-    const Mask<T> reached = counted & (total >= T(1.0));
+    const Mask<T> reached = counted & initiated(total, softening);
     store(points.damage + p, min(total, T(1.0)));
     if (any(reached))
       store(points.initiation_strain + p, select(reached, load<T>(points.stress.plastic_strain + p),
                                                  load<T>(points.initiation_strain + p)));
   }
-  if (any(initiated)) {
+  if (any(softens)) {
     const T sound_part = T(1.0) - softening;
     const T spent = load<T>(points.stress.dissipation + p) * load<T>(points.length + p) *
                     T(parameters.by_fracture_energy);
     const T left = max(sound_part * sound_part - spent, T(0.0));
-    softening = select(initiated, max(T(1.0) - sqrt(left), softening), softening);
+    softening = select(softens, max(T(1.0) - sqrt(left), softening), softening);
     store(points.softening + p, softening);
   }
 }

@@ -16,7 +16,7 @@ template<int dim> struct DamagePoints {
   // in and out
   double* damage;            ///< –     D in [0, 1]
   double* softening;         ///< –     ω in [0, 1]
-  double* initiation_strain; ///< –     ε̄p at which D reached 1; 0 before
+  double* initiation_strain; ///< –     ε̄p at which softening began; 0 before
 };
 
 /// Constants of a material and a step. What would cost a division is kept inverted.

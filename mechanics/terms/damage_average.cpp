@@ -3,6 +3,7 @@
 #include "core/index.hpp"
 #include "core/machine/parallel.hpp"
 #include "mechanics/kinematics.hpp"
+#include "plasticity/initiated.hpp"
 
 #include <algorithm>
 #include <array>
@@ -107,7 +108,7 @@ template<int dim> void DamageAverage<dim>::share(PointState<dim>& point) {
   counts_.resize(n);
   for_each_block(n, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p) {
-      const char counts = before_[p] < 1.0;
+      const char counts = !plasticity::generic::initiated(before_[p], point.softening[p]);
       growth_[p] = counts ? point.damage[p] - before_[p] : 0.0;
       if (growth_[p] != 0.0) group_grows_[p / group_size] = 1;
       if (counts == counts_[p]) continue;
@@ -130,7 +131,9 @@ template<int dim> void DamageAverage<dim>::share(PointState<dim>& point) {
       for (std::size_t p = first; p < last; ++p) {
         if (begin_[p] == begin_[p + 1] || !counts_[p]) continue;
         point.damage[p] = std::min(before_[p] + sum[p - first] / total_[p], 1.0); // p itself is among them
-        point.initiation_strain[p] = point.damage[p] >= 1.0 ? point.plastic_strain[p] : 0.0;
+        point.initiation_strain[p] = plasticity::generic::initiated(point.damage[p], point.softening[p])
+                                         ? point.plastic_strain[p]
+                                         : 0.0;
       }
     }
   });

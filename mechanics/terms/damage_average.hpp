@@ -11,8 +11,8 @@
 
 namespace cnem {
 
-/// dD_p ← Σ_q w_pq V_q dD_q/Σ_q w_pq V_q over the points q of the same material with D < 1 nearer than R,
-/// that of the material, w = (1 − r²/R²)², r on the reference.
+/// dD_p ← Σ_q w_pq V_q dD_q/Σ_q w_pq V_q over the points q of the same material that do not soften and are
+/// nearer than R, that of the material, w = (1 − r²/R²)², r on the reference.
 template<int dim> class DamageAverage {
 public:
   explicit DamageAverage(const std::vector<plasticity::Material>& materials);
@@ -44,7 +44,7 @@ private:
   std::vector<std::int32_t> group_;      ///< of points, that have any of those near
   Field before_, growth_;                ///< [point] D and dD; scratch of a step
   std::vector<char> group_grows_;        ///< [group] whether any of its dD is not 0
-  std::vector<char> counts_;             ///< [point] whether D < 1
+  std::vector<char> counts_;             ///< [point] whether it does not soften
   Field total_;                          ///< [point] Σ w V over those near it that count
 };
 

@@ -3,6 +3,7 @@
 #include "core/index.hpp"
 #include "core/machine/parallel.hpp"
 #include "mechanics/terms/list.hpp"
+#include "plasticity/initiated.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -81,7 +82,8 @@ template<int dim> void PointDamage<dim>::carried(const Body<dim>& body) {
   if (!active_) return;
   PointState<dim>& point = body.state.point;
   for (std::size_t p = 0; p < point.damage.size(); ++p)
-    if (point.damage[p] < 1.0) point.initiation_strain[p] = 0.0; // a mixed point is yet to initiate
+    if (!plasticity::generic::initiated(point.damage[p], point.softening[p]))
+      point.initiation_strain[p] = 0.0;
 }
 
 template<int dim> void PointDamage<dim>::renew(const Body<dim>& body) {

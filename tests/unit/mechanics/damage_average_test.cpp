@@ -35,6 +35,7 @@ struct Averaged {
     }
     point = plasticity::test::points_at_rest<2>(points, 300.0);
     point.damage.assign(points, 0.0);
+    point.softening.assign(points, 0.0);
     point.initiation_strain.assign(points, 0.0);
     point.plastic_strain.assign(points, 0.3);
   }
@@ -98,6 +99,21 @@ TEST(DamageAverage, what_is_broken_neither_takes_nor_gives) {
   a.grow([](const Vec2&) { return 0.25; });
   for (std::size_t p = 0; p < a.point.damage.size(); ++p) {
     EXPECT_NEAR(a.point.damage[p], in(a.place(p)) ? 1.0 : 0.25, 1e-15);
+    EXPECT_EQ(a.point.initiation_strain[p], 0.0);
+  }
+}
+
+TEST(DamageAverage, what_softens_neither_takes_nor_gives_though_it_is_mixed) {
+  Averaged a;
+  const auto in = [](const Vec2& x) { return std::abs(x.x() - 0.5) < 1.2 * spacing; };
+  for (std::size_t p = 0; p < a.point.damage.size(); ++p)
+    if (in(a.place(p))) {
+      a.point.damage[p] = 0.7;
+      a.point.softening[p] = 0.5;
+    }
+  a.grow([&](const Vec2& x) { return in(x) ? 0.0 : 0.25; });
+  for (std::size_t p = 0; p < a.point.damage.size(); ++p) {
+    EXPECT_NEAR(a.point.damage[p], in(a.place(p)) ? 0.7 : 0.25, 1e-15);
     EXPECT_EQ(a.point.initiation_strain[p], 0.0);
   }
 }

@@ -274,6 +274,27 @@ TEST(damage, strength_falls_linearly_with_the_opening) {
   }
 }
 
+TEST(damage, a_point_of_broken_and_sound_matter_softens_once_their_means_add_up_to_one) {
+  for (const auto& [damage, softening] : {std::pair{0.9, 0.8}, {0.6, 0.4}, {0.9, 0.05}}) {
+    Point point{perfect_steel(law_of({0.2, 0, 0, 0, 0}))};
+    const bool softens = damage + softening >= 1.0;
+    point.state.damage[0] = damage;
+    point.state.softening[0] = softening;
+    for (double e = 0.0; point.state.plastic_strain[0] == 0.0; e += 1e-3)
+      point.step(Eigen::Vector3d(std::exp(e), std::exp(-e / 2), std::exp(-e / 2)).asDiagonal(), 1e-3);
+    const double used = softens ? 0.0 : point.state.plastic_strain[0] / 0.2;
+    EXPECT_LT(used, 0.05);
+    EXPECT_NEAR(point.state.damage[0], damage + used, 1e-12);
+    EXPECT_EQ(point.state.softening[0] > softening, softens);
+    EXPECT_EQ(point.state.initiation_strain[0], 0.0);
+    if (softens) continue;
+    for (double e = 5e-3; point.state.softening[0] == softening; e += 1e-3)
+      point.step(Eigen::Vector3d(std::exp(e), std::exp(-e / 2), std::exp(-e / 2)).asDiagonal(), 1e-3);
+    EXPECT_NEAR(point.state.damage[0] + softening, 1.0, 6e-3); // a step's growth
+    EXPECT_GT(point.state.initiation_strain[0], 0.0);
+  }
+}
+
 TEST(damage, a_broken_point_carries_pressure_but_neither_tension_nor_shear) {
   Point point{perfect_steel(law_of({0.0, 0, 0, 0, 0}))}; // breaks with the first flow
   cost_of_breaking(point, 1e-3);
