@@ -28,6 +28,12 @@ struct NodeProperties {
   double filled(NodeIndex i) const {
     return mass[index_of(i)] * jacobian[index_of(i)] / density[index_of(i)];
   }
+  /// Broken matter, which bears no tension, that has opened beyond four times its volume; that of lips which
+  /// slide on each other opens less.
+  bool is_debris(NodeIndex i) const {
+    constexpr double opened = 4.0;
+    return !broken.empty() && broken[index_of(i)] >= 1.0 && jacobian[index_of(i)] > opened;
+  }
   /// kg/m (kg of revolution), what a node's share of the body holds now, where that is not its cell: of a
   /// cloud whose nodes stay. Empty: ρ₀ V/J of its cell.
   Field matter{};
@@ -52,6 +58,7 @@ public:
     return node_.part.empty() || node_.part[i] == node_.part[k];
   }
   bool held(NodeIndex i) const { return node_.held[i] != 0; }
+  bool is_debris(NodeIndex i) const { return node_.is_debris(i); }
   double size_between(NodeIndex a, NodeIndex b) const {
     return 0.5 * (node_.size[index_of(a)] + node_.size[index_of(b)]);
   }

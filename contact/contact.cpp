@@ -16,6 +16,18 @@ namespace {
 constexpr int passes = 8;   ///< of detection; each sees what the last corrected
 constexpr int sweeps = 100; ///< of Gauss-Seidel in a pass, at most
 
+/// Of vectors about their mean.
+template<class List> double standard_deviation(const List& list) {
+  if (list.size() == 0) return 0.0;
+  auto sum = list.front();
+  sum.setZero();
+  for (const auto& v : list) sum += v;
+  const auto mean = (sum / static_cast<double>(list.size())).eval();
+  double squared = 0.0;
+  for (const auto& v : list) squared += (v - mean).squaredNorm();
+  return std::sqrt(squared / static_cast<double>(list.size()));
+}
+
 } // namespace
 
 template<int dim>
@@ -68,6 +80,7 @@ void RigidContact<dim>::set_boundary(const std::vector<Facet<dim>>& facets, std:
 template<int dim> void RigidContact<dim>::remember(const Fields<dim>& velocity) {
   if (!active()) return;
   for (const BoundaryNodeIndex b : before_.indices()) before_[b] = at<dim>(velocity, surface_.node[b]);
+  if (law_.active) spread_ = standard_deviation(before_);
 }
 
 template<int dim> bool RigidContact<dim>::flow_stress_needed() const {
@@ -222,7 +235,9 @@ bool RigidContact<dim>::add(Contact<dim> contact, double start, double level, co
   };
   contact.level = level;
   if (start < 0.0) {
-    const double speed = std::max(pose.recovery, 0.5 * (mean(before_) - pose.before).norm());
+    double relative = (mean(before_) - pose.before).norm();
+    if (!exists(contact.tool)) relative = std::min(relative, spread_); // what pushes out must not feed itself
+    const double speed = std::max(pose.recovery, 0.5 * relative);
     const double left = kept_.covers(contact) ? kept_.left() : 0.0; // else what sweeps leave would add up
     contact.level += std::min(0.0, start + std::max(step.dt * speed, left));
   }

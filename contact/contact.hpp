@@ -262,10 +262,11 @@ private:
 
   // The step in hand.
   IndexedVector<BoundaryNodeIndex, Vec<dim>> before_; ///< m/s, v_{n−½}
-  IndexedVector<BoundaryNodeIndex, Vec<dim>> start_;  ///< m, x_n
-  IndexedVector<BoundaryNodeIndex, Vec<dim>> end_;    ///< m, x_{n+1} as corrected so far
-  ReactionsOfNodes<dim> reactions_;                   ///< of the nodes that contacts have taken
-  std::vector<BoundaryNodeIndex> taken_;              ///< these
+  double spread_ = 0.0; ///< m/s, standard deviation of before_; bodies part no faster than half of it
+  IndexedVector<BoundaryNodeIndex, Vec<dim>> start_; ///< m, x_n
+  IndexedVector<BoundaryNodeIndex, Vec<dim>> end_;   ///< m, x_{n+1} as corrected so far
+  ReactionsOfNodes<dim> reactions_;                  ///< of the nodes that contacts have taken
+  std::vector<BoundaryNodeIndex> taken_;             ///< these
   IndexedVector<BoundaryNodeIndex, char> is_taken_;
   ReactionsOfTools<dim> tool_reactions_;
   NearTools<dim> near_;

@@ -97,11 +97,6 @@ NodeIndex WorkingCloud::mate(NodeIndex i) const {
 /// Mates reach a node, but none goes with it.
 bool WorkingCloud::ends_mates(NodeIndex i) const { return has_mates(i) && !exists(mate(i)); }
 
-bool WorkingCloud::is_debris(NodeIndex i) const {
-  constexpr double opened = 4.0;
-  return !node().broken.empty() && node().broken[index_of(i)] >= 1.0 && node().jacobian[index_of(i)] > opened;
-}
-
 bool WorkingCloud::stays(NodeIndex i) const {
   const auto must = [&](NodeIndex k) {
     return held(k) || ends_piece(k) || (on_boundary(k) && ends_mates(k));

@@ -34,9 +34,6 @@ public:
   /// Facets change pieces here, and the node has to stay for it: it is an end of named boundaries, or beside
   /// the free piece the end of the last facet of another.
   bool ends_piece(NodeIndex i) const;
-  /// Broken matter, which bears no tension, that has opened beyond four times its volume; that of lips which
-  /// slide on each other opens less.
-  bool is_debris(NodeIndex i) const;
   /// A boundary node that may not go: it is held, ends a piece or mates, or its mate may not.
   bool stays(NodeIndex i) const;
 

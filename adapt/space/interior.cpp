@@ -178,7 +178,7 @@ std::vector<Gap> gaps(const WorkingBody& body, const SpaceStructure& structure, 
       if (b < a) continue;
       const double limit = long_edge * body.size_between(a, b);
       const double squared = (body.at(b) - body.at(a)).squaredNorm();
-      if (squared <= limit * limit) continue;
+      if (squared <= limit * limit || (body.is_debris(a) && body.is_debris(b))) continue;
       list.push_back({-std::sqrt(squared) / limit, a, b, 0.5 * (body.at(a) + body.at(b))});
     }
   std::sort(list.begin(), list.end(), [](const Gap& one, const Gap& other) {

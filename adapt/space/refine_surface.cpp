@@ -81,8 +81,9 @@ private:
   void split_long() {
     constexpr int halvings = 4;
     for (int n = 0; n < halvings; ++n) {
-      const auto list =
-          candidates([&](Edge e) { return limit_.split_edge - surface_.length(e) / spacing(e); });
+      const auto list = candidates([&](Edge e) {
+        return surface_.apart(e) ? 0.0 : limit_.split_edge - surface_.length(e) / spacing(e);
+      });
       int done = 0;
       for (const Candidate& c : list) {
         for (const auto& [start, end, made] : alike_.split(surface_.between(c.start, c.end))) {

@@ -11,10 +11,13 @@ UncrossedSurface refine_uncrossed(const Cloud<3>& cloud, const NodeProperties& p
   const PeriodImages images(cloud, rules.periods);
   Field matter(size.size());
   for (std::size_t i = 0; i < matter.size(); ++i) matter[i] = properties.filled(as<NodeIndex>(i));
+  IndexedVector<NodeIndex, char> debris(held.size());
+  for (const NodeIndex i : debris.indices()) debris[i] = properties.is_debris(i);
   constexpr int most = 4;
   for (int n = 0;; ++n) {
     UncrossedSurface result{WorkingSurface(cloud, held, rules.surface), {}, size, {}};
     result.surface.hold_between(crossed);
+    result.surface.leave_apart(debris);
     if (n == most) {
       result.sound = sound;
       result.changes.into.assign(cloud.position.size(), NodeIndex::none);

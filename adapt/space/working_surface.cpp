@@ -34,9 +34,9 @@ WorkingSurface::WorkingSurface(const Cloud<3>& cloud, const IndexedVector<NodeIn
                                const SurfaceRules& rules)
     : rules_(rules), least_crease_(cosine(rules.crease)), least_corner_(cosine(rules.corner)),
       least_turn_(cosine(rules.turn)), least_flat_(cosine(rules.flat)), position_(cloud.position),
-      held_(held), holds_(cloud.position.size(), 0), still_(cloud.position.size(), 0),
-      leaving_(cloud.position.size(), no_edge), facet_(cloud.facets.begin(), cloud.facets.end()),
-      closed_(cloud.facets.size(), 0) {
+      held_(held), holds_(cloud.position.size(), 0), apart_(cloud.position.size(), 0),
+      still_(cloud.position.size(), 0), leaving_(cloud.position.size(), no_edge),
+      facet_(cloud.facets.begin(), cloud.facets.end()), closed_(cloud.facets.size(), 0) {
   assert(held.size() == cloud.position.size());
   const voronoi::SurfaceEdges across = voronoi::surface_edges(cloud);
   across_.reserve(3 * across.size());
@@ -186,6 +186,7 @@ SurfaceChange WorkingSurface::split(Edge e, const Vec3& x) {
   position_.push_back(x);
   held_.push_back(holds_[a] && holds_[b]);
   holds_.push_back(char{held_[made]});
+  apart_.push_back(0);
   still_.push_back(is_still(facet_[f].piece) || is_still(facet_[g].piece));
   const Edge after = across(next_edge(e)), before = across(last_edge(back));
   const Edge one = add_facet({{made, b, c}, facet_[f].piece});

@@ -77,6 +77,9 @@ public:
   /// New nodes between two that have a mark are held, too: the surface between held nodes is as it was then,
   /// where others could go into these.
   void hold_between(const IndexedVector<NodeIndex, char>& marks) { holds_ = marks; }
+  /// Nothing holds those that have a mark together: edges between two of them may be as long as they are.
+  void leave_apart(const IndexedVector<NodeIndex, char>& marks) { apart_ = marks; }
+  bool apart(Edge e) const { return apart_[start(e)] && apart_[end(e)]; }
 
   std::size_t nodes() const { return position_.size(); }
   const Vec3& at(NodeIndex i) const { return position_[i]; }
@@ -169,7 +172,7 @@ private:
   SurfaceRules rules_;
   double least_crease_, least_corner_, least_turn_, least_flat_; ///< cosines
   IndexedVector<NodeIndex, Vec3> position_;
-  IndexedVector<NodeIndex, char> held_, holds_, still_;
+  IndexedVector<NodeIndex, char> held_, holds_, apart_, still_;
   IndexedVector<NodeIndex, Edge> leaving_;
   std::vector<Facet<3>> facet_; ///< node none: gone
   std::vector<char> closed_;    ///< [facet] the other face of its slit lies on it

@@ -33,7 +33,7 @@ void expect_own_tetrahedra(const Cloud<3>& cloud) {
 struct FollowedBody {
   Cloud<3> cloud;
   double spacing;
-  Field mass, momentum, heat, jacobian, size;
+  Field mass, momentum, heat, jacobian, size, broken;
   IndexedVector<NodeIndex, char> held;
   PassReport total;
   SpaceRules rules;
@@ -63,6 +63,7 @@ struct FollowedBody {
     properties.density.assign(mass.size(), 2.0);
     properties.size = size;
     properties.held = held;
+    properties.broken = broken;
     properties.part.assign(cloud.body.begin(), cloud.body.end());
     return adapt::resample(cloud, std::move(properties), rules, report);
   }
@@ -149,6 +150,21 @@ TEST(SpaceResample, leaves_a_body_alone_that_needs_nothing) {
     EXPECT_FALSE(change.mixed(p));
     EXPECT_EQ(change.old_of[p], as<NodeIndex>(p));
   }
+}
+
+TEST(SpaceResample, comes_with_no_nodes_between_debris) {
+  FollowedBody body({.shape = SpaceShape::cube, .cells = 4, .jitter = 0.2});
+  for (double& h : body.size) h *= 0.5; // of edges, which all are too long then
+  body.broken.assign(body.mass.size(), 1.0);
+  for (double& m : body.mass) m /= 4.1;
+  for (double& J : body.jacobian) J *= 4.1;
+  PassReport report;
+  body.resample(report);
+  EXPECT_EQ(report.inserted + report.inserted_boundary, 0);
+  for (double& b : body.broken) b = 0.99;
+  body.resample(report);
+  EXPECT_GT(report.inserted, 50);
+  EXPECT_GT(report.inserted_boundary, 100);
 }
 
 TEST(SpaceResample, keeps_nodes_that_nothing_happened_to_and_held_ones) {

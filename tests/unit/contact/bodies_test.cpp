@@ -122,6 +122,37 @@ TEST(Bodies, penetration_found_at_the_start_is_removed_slowly) {
   EXPECT_GE(scene.contact->body_result().total.recovery, 0.0);
 }
 
+// Two walls at an angle of 30° push a wedge that lies in both of them along their bisector, 1/sin 15° times
+// as fast as each alone: half of the speed that it gets so is twice that which pushed it.
+TEST(Bodies, a_wedge_between_two_walls_is_not_pushed_out_ever_faster) {
+  const double depth = 0.02, speed = 0.1, half_angle = std::numbers::pi / 12.0;
+  Masses scene;
+  for (const double side : {-1.0, 1.0}) {
+    const Vec2 along(side * std::sin(half_angle), std::cos(half_angle)), out(side, 0.0);
+    std::vector<int> nodes;
+    for (const Vec2& x : {Vec2(0.0, 0.0), Vec2(out), Vec2(out + along), along})
+      nodes.push_back(scene.add(x, 1e9));
+    if (side < 0.0) std::reverse(nodes.begin(), nodes.end());
+    scene.loop(nodes);
+    scene.x[0][std::size_t(nodes[0])] += 1e-3 * side;
+  }
+  const double height = 0.2, half = height * std::tan(half_angle) + depth;
+  const int left = scene.add({-half, height}, 1.0, {0.0, -speed});
+  scene.add({half, height}, 1.0, {0.0, -speed});
+  scene.add({0.0, 0.6}, 1.0, {0.0, -speed});
+  scene.loop({left, left + 1, left + 2});
+  scene.link(left, left + 1, 4e5, 400.0);
+  append(scene, block(5, 5, 0.25, {3.0, 0.0}, 400.0, 0.5)); // at rest, as most of a workpiece
+  let_bodies_touch(scene, 0.0);
+  double fastest = 0.0;
+  for (int n = 0; n < 1000; ++n) {
+    scene.step(1e-3);
+    fastest = std::max(fastest, scene.velocity(left).norm());
+  }
+  EXPECT_LT(fastest, 2.0 * speed);
+  EXPECT_GT(scene.contact->body_result().total.recovery, 0.0);
+}
+
 TEST(Bodies, faces_that_were_bonded_keep_what_pressed_them_and_no_more) {
   const auto gap_after = [&](double depth, double pressed, double closing) {
     Masses scene = block(5, 5, 0.25, {0, 0}, 400.0, 0.5);
