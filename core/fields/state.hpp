@@ -135,7 +135,7 @@ template<int dim> struct PointState {
       damaged,
       {"softening", "1", Carry::mass_mean, Checkpoint::holds, rest_zero,
        Shown{"softening", "Share of flow stress and tension lost; 1: broken", "", 1.0, ColourMap::strain}}};
-  /// ε̄p at which softening began, 0 before
+  /// ε̄p at which softening began, 0 before; of mixed points the mean by mass, in which sound matter is 0
   ScalarField initiation_strain{
       damaged,
       {"initiation_strain", "1", Carry::mass_mean, Checkpoint::holds, rest_zero,
